@@ -1,0 +1,11 @@
+# Script mode: writes OUT, a C++ file with the text of each of FILES (paths relative to ROOT).
+string(REPLACE " " ";" FILES "${FILES}")
+set(text "// Generated from the .glsl files; do not edit.\n#include \"common/gpu/shader_source.h\"\n\nnamespace relight::gpu {\nconst EmbeddedShader embedded_shaders[] = {\n")
+foreach(f ${FILES})
+  file(READ ${ROOT}/${f} body)
+  string(APPEND text "{\"${f}\", R\"glsl(${body})glsl\"},\n")
+endforeach()
+string(APPEND text "};\nconst int embedded_shader_count = static_cast<int>(sizeof(embedded_shaders) / sizeof(embedded_shaders[0]));\n}  // namespace relight::gpu\n")
+file(WRITE ${OUT}.tmp "${text}")
+execute_process(COMMAND ${CMAKE_COMMAND} -E copy_if_different ${OUT}.tmp ${OUT})
+file(TOUCH ${OUT})

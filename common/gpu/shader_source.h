@@ -1,0 +1,26 @@
+// Shader text by its path in the source tree: embedded at build time, or read from the folder named by the
+// environment variable RELIGHT_SHADER_DIR. Resolves #include "path/from/the/root.glsl" (each file once).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace relight::gpu {
+
+struct EmbeddedShader {
+  const char* path;
+  const char* text;
+};
+extern const EmbeddedShader embedded_shaders[];
+extern const int embedded_shader_count;
+
+// Source ready for glShaderSource: "#version 450 core", the RL_* macros of common/glsl_in_cpp.h, `defines` (e.g.
+// "LOCAL_SIZE 64"), then the file with its includes expanded and #line directives. files[i] is the name that source
+// number i stands for, for error messages. Throws Error on an unknown path, naming the known ones.
+struct ShaderSource {
+  std::string text;
+  std::vector<std::string> files;
+};
+ShaderSource load_shader(const std::string& path, const std::vector<std::string>& defines = {});
+
+}  // namespace relight::gpu

@@ -1,0 +1,36 @@
+// Light models, one source for C++ (GLM) and GLSL; see common/glsl_in_cpp.h for the subset.
+// Omni: constant intensity. Spot: cosine-smoothstep between the inner and outer cone.
+#ifndef RELIGHT_LIGHT_MODELS
+#define RELIGHT_LIGHT_MODELS
+
+struct LightParams {
+  vec4 position_type;     // xyz position [scene units]; w: 0 omni, 1 spot
+  vec4 direction_outer;   // xyz unit axis; w: cosine of the outer half-angle
+  vec4 intensity_inner;   // xyz intensity [W/sr]; w: cosine of the inner half-angle
+};
+
+// Intensity [W/sr] leaving the light along the unit direction `away`.
+RL_FUNCTION vec3 light_intensity(LightParams light, vec3 away) {
+  vec3 intensity = vec3(light.intensity_inner);
+  if (light.position_type.w > 0.5f) {
+    float cosine = dot(vec3(light.direction_outer), away);
+    float t = clamp((cosine - light.direction_outer.w) / (light.intensity_inner.w - light.direction_outer.w),
+                    0.0f, 1.0f);
+    intensity = intensity * (t * t * (3.0f - 2.0f * t));
+  }
+  return intensity;
+}
+
+// Unshadowed irradiance [W/m^2] of a surface point with unit shading normal ns and geometric normal ng (both on
+// the lit side). Zero from behind either normal, and at the light's own position.
+RL_FUNCTION vec3 light_irradiance(LightParams light, vec3 position, vec3 ns, vec3 ng) {
+  vec3 to_light = vec3(light.position_type) - position;
+  float r2 = dot(to_light, to_light);
+  if (!(r2 > 0.0f)) return vec3(0.0f);
+  vec3 w = to_light * (1.0f / sqrt(r2));
+  float cosine = dot(ns, w);
+  if (!(cosine > 0.0f) || !(dot(ng, w) > 0.0f)) return vec3(0.0f);
+  return light_intensity(light, -w) * (cosine / r2);
+}
+
+#endif

@@ -1,0 +1,51 @@
+// Knobs: the settings of a method. The table is the single source for the command line's help, `--set`, experiment
+// files, run records and documentation.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace relight {
+
+enum class KnobType { integer, real, choice, boolean };
+// A precompute knob changes the prepared data (and its cache key); a relight knob only the query.
+enum class KnobPhase { precompute, relight };
+
+struct Knob {
+  std::string name;
+  KnobType type;
+  KnobPhase phase;
+  std::string default_value;         // equal to the paper's value where the paper gives one
+  double min = 0.0, max = 0.0;       // for integer and real
+  std::vector<std::string> choices;  // for choice
+  std::string stage;                 // the stage whose cost it changes
+  std::string help;                  // one sentence
+};
+
+using KnobTable = std::vector<Knob>;
+
+// Values for every knob of one table. Getters throw std::logic_error on a name or type the table does not have.
+class KnobValues {
+ public:
+  KnobValues() = default;
+  explicit KnobValues(KnobTable table);  // all defaults
+  // Parses and range-checks; Error names the knob, the value, and the valid names, range or choices.
+  void set(const std::string& name, const std::string& value);
+  int64_t integer(const std::string& name) const;
+  double real(const std::string& name) const;
+  bool boolean(const std::string& name) const;
+  const std::string& choice(const std::string& name) const;
+  const std::map<std::string, std::string>& all() const { return values_; }
+  const KnobTable& table() const { return table_; }
+  // "name=value;..." of the precompute knobs only, sorted by name: part of the artefact cache key.
+  std::string precompute_key() const;
+
+ private:
+  const std::string& value(const std::string& name, KnobType type) const;
+  KnobTable table_;
+  std::map<std::string, std::string> values_;
+};
+
+}  // namespace relight

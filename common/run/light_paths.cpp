@@ -1,0 +1,17 @@
+#include "common/run/light_paths.h"
+
+#include <fmt/format.h>
+
+namespace relight {
+
+std::string LightPaths::to_string() const {
+  const char* eye = glossy_at_eye ? "(D|G)" : "D";
+  const char* interior = glossy_interior ? "(D|G)" : "D";
+  std::string sources = "local lights";
+  if (environment) sources += ", environment";
+  if (emission) sources += ", emission";
+  if (min_bounces == 1 && max_bounces == 1) return fmt::format("E {} {} L, 1 bounce, {}", eye, interior, sources);
+  return fmt::format("E {} {}+ L, {}..{} bounces, {}", eye, interior, min_bounces, max_bounces, sources);
+}
+
+}  // namespace relight

@@ -1,0 +1,61 @@
+// What a relighting method is, as the experiments see it: knobs, declared light paths, a precompute and a relight.
+// A method lives in its own folder under methods/ and is registered by one line in experiments/method_list.cpp.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "common/image/image.h"
+#include "common/run/knobs.h"
+#include "common/run/light_paths.h"
+#include "common/run/progress.h"
+#include "common/run/stage_log.h"
+#include "common/sampling/deep_frame_buffer.h"
+#include "common/scene/scene.h"
+
+namespace relight {
+
+class RayTracer;
+class ArtefactCache;
+namespace gpu { class Context; }
+
+// Everything a method may use to precompute. All references outlive the Prepared object.
+struct PrepareContext {
+  const Scene& scene;
+  const RayTracer& tracer;
+  const DeepFrameBuffer& buffer;
+  const KnobValues& knobs;
+  uint64_t seed;
+  gpu::Context& gpu;         // current on the calling thread
+  ArtefactCache& cache;
+  Progress& progress;
+  StageLog& log;             // precompute stages
+};
+
+// Result of one relight; all images have the view's size.
+struct Relit {
+  Image direct;    // box-filtered over the 2x2 sub-pixels
+  Image indirect;  // likewise, after reconstruction
+  Image total;     // direct + indirect
+};
+
+class Prepared {
+ public:
+  virtual ~Prepared() = default;
+  // Relights under a lighting; every lighting is independent of earlier ones. Logs relight stages.
+  virtual Relit relight(const LightingState& lighting, StageLog& log) = 0;
+};
+
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual std::string name() const = 0;
+  virtual std::string summary() const = 0;  // one sentence
+  virtual std::string paper() const = 0;    // authors, title, year
+  virtual KnobTable knobs() const = 0;
+  virtual LightPaths light_paths(const KnobValues& knobs) const = 0;
+  virtual std::unique_ptr<Prepared> prepare(const PrepareContext& context) const = 0;
+};
+
+}  // namespace relight

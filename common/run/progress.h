@@ -1,0 +1,30 @@
+// Progress with time left, on standard error, for work that takes long. Thread-safe.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace relight {
+
+class Progress {
+ public:
+  // `quiet` prints nothing. On a terminal the line is rewritten twice a second; otherwise a line every 10 s.
+  explicit Progress(bool quiet = false) : quiet_(quiet) {}
+  void start(const std::string& what, int64_t total);
+  void advance(int64_t done = 1);
+  void finish();
+
+ private:
+  void print(bool last);
+  bool quiet_;
+  std::string what_;
+  int64_t total_ = 0;
+  std::atomic<int64_t> done_{0};
+  std::chrono::steady_clock::time_point start_, last_print_;
+  std::mutex mutex_;
+};
+
+}  // namespace relight

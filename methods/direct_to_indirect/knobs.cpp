@@ -1,0 +1,30 @@
+#include "methods/direct_to_indirect/knobs.h"
+
+namespace relight::direct_to_indirect {
+
+KnobTable knob_table() {
+  using enum KnobType;
+  using enum KnobPhase;
+  return {
+      {"gather_samples", integer, precompute, "65536", 1024, 1048576, {}, "gather_cloud",
+       "Number of gather samples; a power of four (paper: 65,536)."},
+      {"hierarchy_k", real, precompute, "30", 0, 1000, {}, "hierarchy",
+       "Weight K of positions against normals in the split distance of equation 9 (paper: 20 to 40)."},
+      {"link_threshold", real, precompute, "0.01", 0, 100, {}, "final_gather",
+       "A cluster is subdivided while (bounding-box diagonal / distance)^2 exceeds this; 0 links every sample."},
+      {"form_factor_clamp", real, precompute, "0.1", 0, 1, {}, "final_gather",
+       "Largest value of a final-gather element, against 1/r^2 in corners (paper: 0.1)."},
+      {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
+       "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"selection", choice, precompute, "area", 0, 0, {"area", "magnitude"}, "truncation",
+       "Which coefficients a row keeps: largest |c| x support area (paper), or largest |c|."},
+      {"shadows", choice, relight, "map", 0, 0, {"map", "traced"}, "direct_shading",
+       "Shadows on view and gather samples: shadow maps (paper) or exact traced rays."},
+      {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
+       "Texels a side of a shadow map."},
+      {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu"}, "transfer",
+       "Where Haar transform and sparse product run: GLSL, or the double-precision CPU twin."},
+  };
+}
+
+}  // namespace relight::direct_to_indirect

@@ -1,0 +1,10 @@
+// The knob table of direct-to-indirect transfer.
+#pragma once
+
+#include "common/run/knobs.h"
+
+namespace relight::direct_to_indirect {
+
+KnobTable knob_table();
+
+}  // namespace relight::direct_to_indirect

@@ -1,0 +1,44 @@
+// Monte Carlo reference: an Embree path tracer with next-event estimation, and a second estimator with better
+// sampling of light-driven paths; per-pixel mean and variance of the mean by independent batches.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "common/image/image.h"
+#include "common/run/light_paths.h"
+#include "common/run/progress.h"
+#include "common/run/stage_log.h"
+#include "common/sampling/deep_frame_buffer.h"
+#include "common/tracing/ray_tracer.h"
+
+namespace relight {
+
+enum class Estimator {
+  next_event,   // BRDF sampling, next-event estimation at every vertex
+  light_vertex  // the same, MIS-combined at every vertex with a connection to the first surface hit by a path from a light
+};
+
+struct PathTracerSettings {
+  LightPaths paths;            // which bounces and lobes count; direct light (0 bounces) is always rendered apart
+  int samples_per_pixel = 256; // indirect paths a pixel, spread evenly over the 2x2 sub-pixels of the deep frame buffer
+  int batches = 8;             // independent scramblings; variance comes from their spread. >= 2
+  Estimator estimator = Estimator::light_vertex;
+  uint64_t seed = 1;
+  double time_limit_s = 0.0;   // > 0: stop before the batch that would exceed it (whole batches only)
+};
+
+struct PathTracerResult {
+  Image direct;             // exact: traced shadows at the 2x2 sub-pixels, box-filtered; full BRDF
+  Image indirect;           // mean
+  Image indirect_variance;  // variance of the mean, per channel
+  int samples_per_pixel = 0, batches = 0;  // actually done
+  int64_t rays = 0;
+  int64_t non_finite = 0;  // samples replaced by zero; > 0 is a failure to report
+  Image total() const;
+};
+
+PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buffer, const LightingState& lighting,
+                            const PathTracerSettings& settings, Progress& progress, StageLog& log);
+
+}  // namespace relight
