@@ -30,6 +30,12 @@ struct Segment {
   }
 };
 
+// Density over directions of a point found with `area_pdf`, with `cosine` between its normal and the line to
+// it; infinite edge on.
+float directional(float area_pdf, float squared_distance, float cosine) {
+  return area_pdf * squared_distance / cosine;
+}
+
 }  // namespace
 
 struct PathSampler::EyeVertex {
@@ -65,12 +71,6 @@ shader::BrdfParams PathSampler::allowed(const SurfaceSample& surface, bool at_ey
   shader::BrdfParams brdf = surface.brdf();
   if (!(at_eye ? paths_.glossy_at_eye : paths_.glossy_interior)) brdf.glossy = glm::vec3(0.0f);
   return brdf;
-}
-
-// Density over directions at distance d of a point found with `area_pdf`, whose normal makes `cosine` with
-// the line.
-static float directional(float area_pdf, float squared_distance, float cosine) {
-  return area_pdf * squared_distance / cosine;
 }
 
 PathSampler::LightVertex PathSampler::light_vertex(const PathRandom& random, int64_t& rays) const {
@@ -130,10 +130,11 @@ glm::vec3 PathSampler::from_light(const EyeVertex& y, size_t light, float distan
     if (!tracer_.visible_from_point(s.position, s.geometric_normal, lights_.position(light)))
       return glm::vec3(0.0f);
   }
-  if (!use_light_vertex_) return value;
+  if (!use_light_vertex_ || !(lights_.emission_pdf(light) > 0.0f)) return value;
   const float area_pdf =
       lights_.emission_pdf(light) * glm::dot(s.geometric_normal, to_light.direction) / to_light.squared;
-  const float other = directional(area_pdf, distance * distance, glm::dot(s.geometric_normal, y.wo));
+  const float other =
+      directional(area_pdf, distance * distance, std::max(0.0f, glm::dot(s.geometric_normal, y.wo)));
   // As a quotient of 1: near a corner seen edge on, `other` may be infinite and the weight is 0.
   return value * (1.0f / (1.0f + other / density));
 }
