@@ -9,6 +9,12 @@
 
 namespace relight {
 
+// "12 s", "1 min 10 s", "2 h 5 min"; "under 1 s" below half a second. Rounded, for people.
+std::string format_duration(double seconds);
+// "reference  42 %  1 min 10 s left": the time left assumes that the rest goes as fast as what is done; it is
+// left out while nothing is done. total <= 0 (unknown) gives the count alone.
+std::string format_progress(const std::string& what, int64_t done, int64_t total, double elapsed_seconds);
+
 class Progress {
  public:
   // `quiet` prints nothing. On a terminal the line is rewritten twice a second; otherwise a line every 10 s.

@@ -1,0 +1,21 @@
+# Script run at every build: writes OUT, a header with the git commit of ROOT, only if it changed.
+# Without git or outside a repository the commit is "unknown": a record must not claim what nobody knows.
+execute_process(COMMAND git -C ${ROOT} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
+                RESULT_VARIABLE failed ERROR_QUIET)
+set(dirty false)
+if(NOT failed EQUAL 0)
+  set(commit unknown)
+else()
+  execute_process(COMMAND git -C ${ROOT} status --porcelain --untracked-files=no OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(NOT changes STREQUAL "")
+    set(dirty true)
+  endif()
+endif()
+set(text "#define RELIGHT_BUILD_COMMIT \"${commit}\"\n#define RELIGHT_BUILD_DIRTY ${dirty}\n")
+set(old "")
+if(EXISTS ${OUT})
+  file(READ ${OUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUT} "${text}")
+endif()

@@ -1,0 +1,80 @@
+// The run record: everything that is known about one run, one JSON object a line in records.jsonl. Every
+// table, curve and report is made from records, so a number that is not in here can't be shown.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/image/metrics.h"
+#include "common/run/provenance.h"
+
+namespace relight {
+
+// Wall times of repeated relights [ms].
+struct RelightTime {
+  double median = 0, min = 0, max = 0;
+  int repeats = 0;
+};
+// Median (mean of the middle two for an even count), smallest and largest; all 0 for no times.
+RelightTime summarise_times(const std::vector<double>& milliseconds);
+
+// What the reference image cost.
+struct ReferenceCost {
+  int64_t samples = 0;  // a pixel
+  int64_t batches = 0;
+  double seconds = 0;
+};
+
+struct RunRecord {
+  // What was run.
+  std::string scene, view, lighting, method;
+  std::map<std::string, std::string> knobs;  // fully resolved
+  uint64_t seed = 0;
+  std::string light_paths;  // LightPaths::to_string() of method and reference alike
+  int width = 0, height = 0;
+  int64_t triangles = 0;
+  std::string scene_hash;  // content hash of the scene
+
+  // How wrong it is; absent when the run failed before an image, or without a reference.
+  std::optional<ErrorReport> errors;           // of the total image
+  std::optional<ErrorReport> errors_indirect;  // of the indirect image alone
+
+  // What it cost.
+  double precompute_s = 0;
+  RelightTime relight_ms;
+  std::vector<std::pair<std::string, double>> precompute_stages,
+      relight_stages;                           // [s], in order of execution
+  std::map<std::string, int64_t> memory_bytes;  // by artefact; "process_peak" is peak_memory_bytes()
+  std::map<std::string, int64_t> counters;
+  std::optional<ReferenceCost> reference;
+
+  std::vector<std::string> warnings;
+  std::vector<std::string> failed_stages;  // "stage: why"; not empty = the run's result is not to be trusted
+  Provenance provenance;
+};
+
+// One line of JSON without a newline. JSON has no NaN or infinity: they are written as the strings "nan",
+// "inf" and
+// "-inf", and read back as numbers.
+std::string record_to_json(const RunRecord& record);
+// Throws Error naming the missing or mistyped field. Unknown fields are ignored: newer programs write more.
+RunRecord record_from_json(const std::string& line);
+
+// Adds one line, creating file and folder. Safe among processes; on a full disk the file is left as it was
+// and Error is thrown.
+void append_record(const std::filesystem::path& file, const RunRecord& record);
+
+struct RecordFile {
+  std::vector<RunRecord> records;
+  std::vector<std::string> warnings;  // one for each unreadable line, naming file and line
+};
+// A torn line, e.g. of a machine that lost power, costs that record only. Throws Error if the file can't be
+// opened.
+RecordFile read_records(const std::filesystem::path& file);
+
+}  // namespace relight
