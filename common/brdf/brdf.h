@@ -19,12 +19,13 @@ glm::mat3 frame_around(const glm::vec3& n);
 glm::vec3 sample_cosine(const glm::vec3& n, const glm::vec2& u);
 
 struct BrdfSample {
-  glm::vec3 wi{0.0f};     // unit
-  float pdf = 0.0f;       // solid-angle density of wi under the mixture; 0 = no sample
+  glm::vec3 wi{0.0f};  // unit
+  float pdf = 0.0f;    // solid-angle density of wi under the mixture; 0 = no sample
 };
 
-// Samples wi from the mixture of the diffuse and glossy lobes (chosen by u_lobe in [0,1), weights by mean albedo).
-// `diffuse_only` ignores the glossy lobe.
+// Samples wi from the mixture of the diffuse and glossy lobes (chosen by u_lobe in [0,1), weights by mean
+// albedo). `diffuse_only` ignores the glossy lobe. The glossy lobe may give a wi below n: the density counts
+// it (it integrates to 1 over the whole sphere), and callers drop it because no light arrives from there.
 BrdfSample sample_brdf(const shader::BrdfParams& brdf, const glm::vec3& n, const glm::vec3& wo, float u_lobe,
                        const glm::vec2& u, bool diffuse_only);
 // Density of sample_brdf for a given wi [1/sr].

@@ -31,7 +31,8 @@ struct Bounds {
 };
 
 // Radiance arriving from directions that hit nothing [W/(m^2 sr)]. Constant, or a latitude-longitude map
-// (y up, u = 0.5 + atan2(x, -z)/(2 pi), v = acos(y)/pi from the top row) turned by rotation_y radians about y.
+// (y up, u = 0.5 + atan2(x, -z)/(2 pi), v = acos(y)/pi from the top row) turned by rotation_y radians about
+// y.
 struct Environment {
   glm::vec3 radiance{0.0f};  // constant radiance, or the multiplier of the map
   std::string file;          // empty: constant
@@ -62,8 +63,8 @@ struct Scene {
   float exposure = 1.0f;  // fixed factor applied to radiance before the clamp of the `relative` metric
   std::map<std::string, LightingState> lightings;  // named presets ("spot", "omni", ...)
   Environment environment;
-  Bounds bounds;               // of all referenced vertices
-  uint64_t content_hash = 0;   // of everything that can change a picture, except camera and lights
+  Bounds bounds;              // of all referenced vertices
+  uint64_t content_hash = 0;  // of everything that can change a picture, except camera and lights
   RepairReport repairs;
 
   // Geometric (unnormalised) normal of triangle t: cross product of its edges; length = 2 x area.

@@ -1,0 +1,39 @@
+#include "experiments/cli/session_flags.h"
+
+#include <CLI/CLI.hpp>
+
+namespace relight::cli {
+
+void add_session_flags(CLI::App& command, SessionOptions& options) {
+  command
+      .add_option("--scene", options.scene,
+                  "Built-in scene with parameters (see `relight scene list`), or a file")
+      ->required()
+      ->type_name("NAME|FILE");
+  command.add_option("--view", options.view, "Size of the picture in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command
+      .add_option("--lights", options.lights,
+                  "Lighting preset of the scene (see `relight scene info`), or a file")
+      ->type_name("PRESET|FILE");
+  command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads, 0 for all cores; results do not depend on it")
+      ->capture_default_str();
+  command.add_option("--gpu", options.gpu, "OpenGL context: osmesa, egl, or auto (EGL if it is a real GPU)")
+      ->type_name("osmesa|egl|auto")
+      ->capture_default_str();
+  command.add_flag("--no-cache", options.no_cache, "Neither read nor write precomputed data");
+  add_cache_folder_flag(command, options);
+  command.add_flag("--quiet", options.quiet, "No progress on standard error");
+}
+
+void add_cache_folder_flag(CLI::App& command, SessionOptions& options) {
+  command
+      .add_option("--cache", options.cache_folder,
+                  "Folder of precomputed data (default: $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else "
+                  "~/.cache/relight)")
+      ->type_name("DIR");
+}
+
+}  // namespace relight::cli

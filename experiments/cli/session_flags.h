@@ -1,0 +1,16 @@
+// The options that render, reference and compare share.
+#pragma once
+
+#include "experiments/session/options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace relight::cli {
+
+void add_session_flags(CLI::App& command, SessionOptions& options);
+// --cache and --no-cache alone.
+void add_cache_folder_flag(CLI::App& command, SessionOptions& options);
+
+}  // namespace relight::cli

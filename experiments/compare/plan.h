@@ -1,0 +1,62 @@
+// What `relight compare` was asked to do: options as typed, and the checked plan made of them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/method_list.h"
+#include "experiments/options/parse.h"
+#include "experiments/session/options.h"
+
+namespace relight {
+
+struct CompareOptions {
+  SessionOptions session;
+  std::string methods;                // comma-separated names
+  std::vector<std::string> settings;  // "method.knob=value"
+  std::string out;                    // folder
+  std::string bounces;                // "a..b"; empty: each method's own
+  int reference_samples = 256;        // indirect paths a pixel
+  std::string reference_estimator = "light_vertex";
+  int repeats = 0;  // timed relights; 0: five, fewer if one takes seconds
+};
+
+struct MethodPlan {
+  const Method* method;
+  KnobValues knobs;
+  LightPaths paths;  // what the method carries under these knobs
+};
+
+struct ComparePlan {
+  SessionOptions session;
+  std::vector<MethodPlan> methods;
+  std::filesystem::path out;
+  std::optional<BounceRange> bounces;
+  int reference_samples;
+  Estimator reference_estimator;
+  int repeats;
+};
+
+// Defaults plus those settings that name the method. Throws UsageError (unknown method or knob, value out of
+// range).
+MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings);
+
+// "method.knob=value" for each text; UsageError if one names a method outside `methods`.
+std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
+                                        const std::vector<const Method*>& methods);
+
+// Checks all that can be checked without loading the scene. `methods` must outlive the plan.
+ComparePlan make_plan(const CompareOptions& options, const MethodList& methods);
+
+// The light paths that the reference of a method is restricted to: the method's own, or with --bounces in
+// place of its bounces.
+LightPaths reference_paths(const ComparePlan& plan, const MethodPlan& method);
+
+// The command line that repeats the run of `method` (or of every method of the plan) with every knob written
+// out.
+std::string command_line(const ComparePlan& plan, const std::string& lights,
+                         const std::vector<MethodPlan>& methods);
+
+}  // namespace relight

@@ -1,0 +1,76 @@
+#include "experiments/compare/reference_images.h"
+
+#include <chrono>
+
+#include "common/run/error.h"
+#include "experiments/compare/result_bytes.h"
+#include "experiments/options/parse.h"
+
+namespace relight {
+
+namespace {
+
+constexpr const char* kind = "reference.images";
+// Raise it whenever the path tracer's estimate changes for the same settings.
+constexpr int reference_version = 1;
+
+std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
+
+std::string words(const Light& light) {
+  return fmt::format("[type={} position={} direction={} intensity={} inner={} outer={} shadows={}]",
+                     static_cast<int>(light.type), words(light.position), words(light.direction),
+                     words(light.intensity), light.inner_degrees, light.outer_degrees, light.casts_shadows);
+}
+
+std::string words(const LightPaths& paths) {
+  return fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}",
+                     paths.min_bounces, paths.max_bounces, paths.glossy_at_eye, paths.glossy_interior,
+                     paths.environment, paths.emission);
+}
+
+}  // namespace
+
+bool same_paths(const LightPaths& a, const LightPaths& b) { return words(a) == words(b); }
+
+std::string reference_key(const Session& session, const PathTracerSettings& settings) {
+  const View& view = session.buffer().view;
+  std::string lights;
+  for (const Light& light : session.lighting().lights) lights += words(light);
+  return fmt::format(
+      "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "
+      "samples={} "
+      "batches={} estimator={} seed={}",
+      reference_version, session.scene().content_hash, words(view.camera.eye), words(view.camera.target),
+      words(view.camera.up), view.camera.fov_y_degrees, view.width, view.height, lights,
+      words(settings.paths), settings.samples_per_pixel, settings.batches, to_string(settings.estimator),
+      settings.seed);
+}
+
+ReferenceImages reference_images(Session& session, const PathTracerSettings& settings, StageLog& log) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const View& view = session.buffer().view;
+  const bool repeatable = settings.time_limit_s <= 0.0;
+  const std::string key = reference_key(session, settings);
+  if (repeatable) {
+    if (const auto bytes = session.cache().load(kind, key)) {
+      if (auto result = result_from_bytes(*bytes, view.width, view.height)) {
+        return {settings, std::move(*result), true, elapsed()};
+      }
+    }
+  }
+  PathTracerResult result =
+      path_trace(session.tracer(), session.buffer(), session.lighting(), settings, session.progress(), log);
+  if (repeatable && session.cache().enabled()) {
+    try {
+      session.cache().store(kind, key, to_bytes(result));
+    } catch (const Error& error) {
+      log.warn(fmt::format("the reference was not cached: {}", error.what()));
+    }
+  }
+  return {settings, std::move(result), false, elapsed()};
+}
+
+}  // namespace relight

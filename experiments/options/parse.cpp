@@ -1,0 +1,92 @@
+#include "experiments/options/parse.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "experiments/usage_error.h"
+
+namespace relight {
+
+namespace {
+
+constexpr int max_side = 16384;  // beyond it pixel indices of the 2x2 sub-pixels leave 32 bits
+constexpr int max_bounces = 64;  // beyond it nothing visible is left at any albedo below 0.9
+
+std::optional<int> whole_number(const std::string& text) {
+  int value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+ViewSize parse_view(const std::string& text) {
+  const size_t x = text.find('x');
+  const auto width = x == std::string::npos ? std::nullopt : whole_number(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : whole_number(text.substr(x + 1));
+  if (!width || !height) usage_fail("--view '{}': expected WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+  if (*width < 1 || *width > max_side || *height < 1 || *height > max_side) {
+    usage_fail("--view '{}': each side must lie in 1..{} pixels", text, max_side);
+  }
+  return {*width, *height};
+}
+
+BounceRange parse_bounces(const std::string& text) {
+  const size_t dots = text.find("..");
+  const auto low = whole_number(text.substr(0, dots));
+  const auto high = dots == std::string::npos ? low : whole_number(text.substr(dots + 2));
+  if (!low || !high) usage_fail("--bounces '{}': expected a..b, e.g. 1..3, or one number", text);
+  if (*low < 1 || *low > *high || *high > max_bounces) {
+    usage_fail("--bounces '{}': expected 1 <= a <= b <= {} (direct light, 0 bounces, is always there)", text,
+               max_bounces);
+  }
+  return {*low, *high};
+}
+
+std::string to_string(const BounceRange& range) { return fmt::format("{}..{}", range.min, range.max); }
+
+Estimator parse_estimator(const std::string& text) {
+  if (text == "next_event") return Estimator::next_event;
+  if (text == "light_vertex") return Estimator::light_vertex;
+  usage_fail("unknown estimator '{}'; valid: next_event, light_vertex", text);
+}
+
+std::string to_string(Estimator estimator) {
+  return estimator == Estimator::next_event ? "next_event" : "light_vertex";
+}
+
+KnobSetting parse_knob_setting(const std::string& text) {
+  const size_t equals = text.find('=');
+  const size_t dot = text.substr(0, equals).find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals ||
+      equals + 1 == text.size()) {
+    usage_fail("--set '{}': expected method.knob=value, e.g. direct_to_indirect.coefficients=200", text);
+  }
+  return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
+}
+
+std::vector<std::string> parse_name_list(const std::string& option, const std::string& text) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    names.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+    if (names.back().empty()) usage_fail("{} '{}': empty name between commas", option, text);
+    if (std::count(names.begin(), names.end(), names.back()) > 1) {
+      usage_fail("{} '{}': '{}' appears twice", option, text, names.back());
+    }
+  }
+  return names;
+}
+
+std::string shell_quoted(const std::string& text) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace relight

@@ -1,0 +1,42 @@
+// The small languages of the command line: view sizes, bounce ranges, estimators, knob settings.
+// Every function throws UsageError that shows the text found and the form expected.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/run/light_paths.h"
+#include "reference/path_tracer.h"
+
+namespace relight {
+
+struct ViewSize {
+  int width = 640, height = 480;  // pixels, each in [1, 16384]
+};
+// "640x480".
+ViewSize parse_view(const std::string& text);
+
+struct BounceRange {
+  int min = 1, max = 1;  // 1 <= min <= max <= 64
+};
+// "1..3", or "2" for 2..2.
+BounceRange parse_bounces(const std::string& text);
+std::string to_string(const BounceRange& range);
+
+// "next_event" or "light_vertex".
+Estimator parse_estimator(const std::string& text);
+std::string to_string(Estimator estimator);
+
+struct KnobSetting {
+  std::string method, knob, value;
+};
+// "method.knob=value".
+KnobSetting parse_knob_setting(const std::string& text);
+
+// "a,b,c" without empty parts or repetitions.
+std::vector<std::string> parse_name_list(const std::string& option, const std::string& text);
+
+// `text` as one word for a POSIX shell.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace relight

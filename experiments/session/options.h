@@ -1,0 +1,21 @@
+// What `render`, `reference` and `compare` have in common, as typed on the command line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace relight {
+
+struct SessionOptions {
+  std::string scene;             // built-in name with parameters, or a file
+  std::string lights;            // preset of the scene or a file; empty: the scene's only or default preset
+  std::string view = "640x480";  // pixels
+  std::string gpu = "osmesa";    // osmesa, egl or auto
+  uint64_t seed = 1;
+  int threads = 0;  // 0: all cores
+  bool no_cache = false;
+  std::string cache_folder;  // empty: ArtefactCache::default_folder()
+  bool quiet = false;        // no progress on standard error
+};
+
+}  // namespace relight

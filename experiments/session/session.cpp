@@ -1,0 +1,97 @@
+#include "experiments/session/session.h"
+
+#include <algorithm>
+
+#include "common/scene/scene_file.h"
+#include "experiments/options/parse.h"
+#include "experiments/usage_error.h"
+
+namespace relight {
+
+namespace {
+
+constexpr int max_threads = 1024;
+
+SessionOptions checked(const SessionOptions& options) {
+  parse_view(options.view);
+  if (options.threads < 0 || options.threads > max_threads) {
+    usage_fail("--threads {}: expected 0 (all cores) to {}", options.threads, max_threads);
+  }
+  if (options.gpu != "osmesa" && options.gpu != "egl" && options.gpu != "auto") {
+    usage_fail("--gpu '{}': valid: osmesa, egl, auto", options.gpu);
+  }
+  return options;
+}
+
+template <typename Function>
+auto timed(StageLog& log, const char* stage, Function function) {
+  const StageTimer timer(log, stage);
+  return function();
+}
+
+std::string preset_names(const Scene& scene) {
+  std::string names;
+  for (const auto& [name, lighting] : scene.lightings) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "none" : names;
+}
+
+LightingState load_named_lighting(const Scene& scene, const std::string& name) {
+  if (!scene.lightings.contains(name) && !std::filesystem::exists(name)) {
+    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name,
+               scene.name, preset_names(scene));
+  }
+  LightingState lighting = load_lighting(scene, name);
+  validate(lighting);
+  return lighting;
+}
+
+}  // namespace
+
+Scene load_named_scene(const std::string& name) {
+  if (std::filesystem::exists(name)) return load_scene(name);
+  const auto& builtins = builtin_scenes();
+  const std::string base = name.substr(0, name.find(':'));
+  const bool known =
+      std::any_of(builtins.begin(), builtins.end(), [&](const BuiltinScene& b) { return b.name == base; });
+  if (!known) {
+    std::string names;
+    for (const auto& builtin : builtins) names += (names.empty() ? "" : ", ") + builtin.name;
+    usage_fail("scene '{}': neither a file nor a built-in scene; valid built-in scenes: {}", name, names);
+  }
+  try {
+    return load_scene(name);
+  } catch (const Error& error) {
+    throw UsageError(error.what());  // a wrong parameter of a built-in scene was typed, not stored in a file
+  }
+}
+
+std::string choose_lighting(const Scene& scene, const std::string& wanted) {
+  if (!wanted.empty()) return wanted;
+  if (scene.lightings.contains("default")) return "default";
+  if (scene.lightings.size() == 1) return scene.lightings.begin()->first;
+  usage_fail("--lights is needed: scene '{}' has these presets: {}", scene.name, preset_names(scene));
+}
+
+ArtefactCache open_cache(const SessionOptions& options) {
+  return ArtefactCache(options.cache_folder.empty() ? ArtefactCache::default_folder()
+                                                    : std::filesystem::path(options.cache_folder),
+                       !options.no_cache);
+}
+
+Session::Session(const SessionOptions& options, Gpu gpu)
+    : options_(checked(options)),
+      threads_(options.threads),
+      scene_(timed(setup_, "load_scene", [&] { return load_named_scene(options.scene); })),
+      lighting_name_(choose_lighting(scene_, options.lights)),
+      lighting_(load_named_lighting(scene_, lighting_name_)),
+      cache_(open_cache(options)),
+      progress_(options.quiet) {
+  if (gpu == Gpu::needed) gpu_ = gpu::Context::create(options.gpu);
+  tracer_ = timed(setup_, "build_bvh", [&] { return std::make_unique<RayTracer>(scene_); });
+  const ViewSize size = parse_view(options.view);
+  buffer_ = timed(setup_, "deep_frame_buffer", [&] {
+    return make_deep_frame_buffer(scene_, *tracer_, View{scene_.camera, size.width, size.height});
+  });
+}
+
+}  // namespace relight

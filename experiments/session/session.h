@@ -1,0 +1,59 @@
+// Everything one invocation works on: the scene, its lighting, the view, the ray tracer, the deep frame
+// buffer, the GPU context and the artefact cache. Loaded in an order that refuses bad input before anything
+// slow starts.
+#pragma once
+
+#include <memory>
+
+#include "common/gpu/context.h"
+#include "common/run/artefact_cache.h"
+#include "common/run/progress.h"
+#include "common/run/stage_log.h"
+#include "common/run/thread_limit.h"
+#include "common/sampling/deep_frame_buffer.h"
+#include "common/tracing/ray_tracer.h"
+#include "experiments/session/options.h"
+
+namespace relight {
+
+class Session {
+ public:
+  enum class Gpu { needed, not_needed };
+  // Throws UsageError for an unknown scene, preset, view or GPU name; Error if a file is broken or no context
+  // opens.
+  Session(const SessionOptions& options, Gpu gpu);
+
+  const Scene& scene() const { return scene_; }
+  const LightingState& lighting() const { return lighting_; }
+  const std::string& lighting_name() const { return lighting_name_; }  // as `--lights` would name it
+  const RayTracer& tracer() const { return *tracer_; }
+  const DeepFrameBuffer& buffer() const { return buffer_; }
+  ArtefactCache& cache() { return cache_; }
+  Progress& progress() { return progress_; }
+  gpu::Context* gpu() { return gpu_.get(); }
+  StageLog& setup() { return setup_; }  // loading, BVH, deep frame buffer
+  const SessionOptions& options() const { return options_; }
+
+ private:
+  SessionOptions options_;
+  ThreadLimit threads_;
+  StageLog setup_;
+  Scene scene_;
+  std::string lighting_name_;
+  LightingState lighting_;
+  std::unique_ptr<gpu::Context> gpu_;
+  std::unique_ptr<RayTracer> tracer_;
+  DeepFrameBuffer buffer_;
+  ArtefactCache cache_;
+  Progress progress_;
+};
+
+// The scene called `name`; UsageError listing the built-in names if it is neither one of them nor a file.
+Scene load_named_scene(const std::string& name);
+
+// The preset to use when `wanted` may be empty; UsageError listing the presets if there is no obvious one.
+std::string choose_lighting(const Scene& scene, const std::string& wanted);
+
+ArtefactCache open_cache(const SessionOptions& options);
+
+}  // namespace relight

@@ -1,0 +1,86 @@
+#include "methods/direct_to_indirect/artefact.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "common/run/error.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+constexpr int precompute_version = 1;
+
+template <typename T>
+void append(std::vector<std::byte>& out, const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const uint64_t count = values.size();
+  const size_t at = out.size(), bytes = values.size() * sizeof(T);
+  out.resize(at + sizeof(count) + bytes);
+  std::memcpy(out.data() + at, &count, sizeof(count));
+  if (bytes > 0) std::memcpy(out.data() + at + sizeof(count), values.data(), bytes);
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  template <typename T>
+  std::vector<T> next() {
+    uint64_t count = 0;
+    take(&count, sizeof(count));
+    if (count > (bytes_.size() - at_) / sizeof(T)) fail("cached artefact: truncated after {} bytes", at_);
+    std::vector<T> values(count);
+    if (count > 0) take(values.data(), count * sizeof(T));
+    return values;
+  }
+
+ private:
+  void take(void* out, size_t n) {
+    if (n > bytes_.size() - at_) fail("cached artefact: truncated after {} bytes", at_);
+    std::memcpy(out, bytes_.data() + at_, n);
+    at_ += n;
+  }
+  const std::vector<std::byte>& bytes_;
+  size_t at_ = 0;
+};
+
+std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
+
+}  // namespace
+
+std::string cache_key(const PrepareContext& context) {
+  const View& view = context.buffer.view;
+  const Camera& camera = view.camera;
+  return fmt::format(
+      "version={};layout={},{};scene={:016x};view={}x{};eye={};target={};up={};fov={};seed={};{}",
+      precompute_version, sizeof(SurfaceSample), sizeof(SparseEntry), context.scene.content_hash, view.width,
+      view.height, words(camera.eye), words(camera.target), words(camera.up), camera.fov_y_degrees,
+      context.seed, context.knobs.precompute_key());
+}
+
+std::vector<std::byte> to_bytes(const Artefact& artefact) {
+  std::vector<std::byte> out;
+  append(out, std::vector<uint32_t>{artefact.final_gather.columns});
+  append(out, artefact.cloud.samples);
+  append(out, artefact.cloud.area);
+  append(out, artefact.final_gather.row_start);
+  append(out, artefact.final_gather.entries);
+  return out;
+}
+
+Artefact from_bytes(const std::vector<std::byte>& bytes) {
+  Reader reader(bytes);
+  Artefact artefact;
+  const std::vector<uint32_t> columns = reader.next<uint32_t>();
+  artefact.cloud.samples = reader.next<SurfaceSample>();
+  artefact.cloud.area = reader.next<float>();
+  artefact.final_gather.row_start = reader.next<uint64_t>();
+  artefact.final_gather.entries = reader.next<SparseEntry>();
+  if (columns.size() != 1 || columns[0] != artefact.cloud.samples.size())
+    fail("cached artefact: inconsistent sizes");
+  artefact.final_gather.columns = columns[0];
+  return artefact;
+}
+
+}  // namespace relight::direct_to_indirect

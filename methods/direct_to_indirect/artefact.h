@@ -1,0 +1,27 @@
+// What direct-to-indirect precomputes, and its form in the artefact cache.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "common/linalg/sparse_rows.h"
+#include "common/run/method.h"
+#include "common/sampling/gather_cloud.h"
+
+namespace relight::direct_to_indirect {
+
+struct Artefact {
+  GatherCloud cloud;        // in tree order
+  SparseRows final_gather;  // wavelet space, one row a view sample
+};
+
+// Everything the artefact depends on, in words. Contains the version of this folder's precompute code: raise
+// it with any change of the numbers.
+std::string cache_key(const PrepareContext& context);
+
+std::vector<std::byte> to_bytes(const Artefact& artefact);
+// Throws Error if the bytes are not an artefact of this format.
+Artefact from_bytes(const std::vector<std::byte>& bytes);
+
+}  // namespace relight::direct_to_indirect

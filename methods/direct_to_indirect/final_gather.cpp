@@ -1,0 +1,171 @@
+#include "methods/direct_to_indirect/final_gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "common/wavelet/haar.h"
+#include "methods/direct_to_indirect/tile_gather.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+constexpr int tile_side = 4;
+
+struct Candidate {
+  float weight;
+  SparseEntry entry;
+};
+
+// Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.
+void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
+  const auto heavier = [](const Candidate& a, const Candidate& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
+  };
+  if (candidates.size() > limit) {
+    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
+                     candidates.end(), heavier);
+    candidates.resize(limit);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
+}
+
+struct Totals {
+  GatherCounts gather;
+  int64_t before = 0;  // coefficients before truncation
+  double energy_before = 0,
+         energy_kept = 0;  // reported only: their sums may differ in the last bits between runs
+};
+
+// Scratch of one worker thread.
+struct Worker {
+  TileGather gather;
+  std::vector<Candidate> candidates;
+  Totals totals;
+};
+
+class Builder {
+ public:
+  Builder(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings, uint32_t columns)
+      : buffer_(buffer),
+        settings_(settings),
+        columns_(columns),
+        limit_(static_cast<size_t>(settings.coefficients)),
+        tiles_x_((buffer.view.width + tile_side - 1) / tile_side),
+        tiles_y_((buffer.view.height + tile_side - 1) / tile_side),
+        tiles_(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_)) {}
+
+  int tiles() const { return tiles_x_ * tiles_y_; }
+
+  void tile(Worker& worker, int t) {
+    std::array<const SurfaceSample*, lanes> samples{};
+    for (int i = 0; i < lanes; ++i) {
+      const int x = t % tiles_x_ * tile_side + i % tile_side, y = t / tiles_x_ * tile_side + i / tile_side;
+      if (x < buffer_.view.width && y < buffer_.view.height)
+        samples[static_cast<size_t>(i)] = &buffer_.indirect[pixel(x, y)];
+    }
+    worker.gather.gather(samples, static_cast<uint64_t>(t));
+    TileRows& rows = tiles_[static_cast<size_t>(t)];
+    for (size_t i = 0; i < lanes; ++i) {
+      if (samples[i] && samples[i]->valid) append_row(worker, i, rows.entries);
+      rows.end[i] = static_cast<uint32_t>(rows.entries.size());
+    }
+  }
+
+  SparseRows finish() {
+    SparseRows rows;
+    rows.columns = columns_;
+    rows.row_start.push_back(0);
+    size_t total = 0;
+    for (const TileRows& t : tiles_) total += t.entries.size();
+    rows.entries.reserve(total);
+    for (int y = 0; y < buffer_.view.height; ++y)
+      for (int x = 0; x < buffer_.view.width; ++x) {
+        const TileRows& t = tiles_[static_cast<size_t>(y / tile_side * tiles_x_ + x / tile_side)];
+        const auto lane = static_cast<size_t>(y % tile_side * tile_side + x % tile_side);
+        const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
+        rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
+        rows.row_start.push_back(rows.entries.size());
+      }
+    return rows;
+  }
+
+ private:
+  // The rows of one tile's lanes, one after the other; lane i ends at end[i].
+  struct TileRows {
+    std::vector<SparseEntry> entries;
+    std::array<uint32_t, lanes> end{};
+  };
+
+  size_t pixel(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(buffer_.view.width) + static_cast<size_t>(x);
+  }
+
+  void append_row(Worker& worker, size_t lane, std::vector<SparseEntry>& out) {
+    worker.candidates.clear();
+    double energy = 0.0, kept = 0.0;
+    for (const LaneCoefficient& c : worker.gather.coefficients()) {
+      const float value = c.value[lane];
+      if (value == 0.0f) continue;
+      energy += static_cast<double>(value) * value;
+      const float area = settings_.selection == Selection::area
+                             ? static_cast<float>(wavelet::support(c.index, columns_))
+                             : 1.0f;
+      worker.candidates.push_back({std::abs(value) * area, {c.index, value}});
+    }
+    worker.totals.before += static_cast<int64_t>(worker.candidates.size());
+    keep_largest(worker.candidates, limit_);
+    for (const Candidate& c : worker.candidates) {
+      out.push_back(c.entry);
+      kept += static_cast<double>(c.entry.value) * c.entry.value;
+    }
+    worker.totals.energy_before += energy;
+    worker.totals.energy_kept += kept;
+  }
+
+  const DeepFrameBuffer& buffer_;
+  const FinalGatherSettings& settings_;
+  uint32_t columns_;
+  size_t limit_;
+  int tiles_x_, tiles_y_;
+  std::vector<TileRows> tiles_;
+};
+
+}  // namespace
+
+SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                                const GatherCloud& cloud, const GatherHierarchy& hierarchy,
+                                const FinalGatherSettings& settings, Progress& progress, StageLog& log) {
+  Builder builder(buffer, settings, static_cast<uint32_t>(cloud.samples.size()));
+  tbb::enumerable_thread_specific<Worker> workers([&] {
+    return Worker{TileGather(tracer, cloud, hierarchy, settings), {}, {}};
+  });
+  progress.start("final gather", builder.tiles());
+  tbb::parallel_for(0, builder.tiles(), [&](int t) {
+    builder.tile(workers.local(), t);
+    progress.advance();
+  });
+  progress.finish();
+
+  Totals sum;
+  for (const Worker& w : workers) {
+    sum.gather.rays += w.gather.counts().rays;
+    sum.gather.links += w.gather.counts().links;
+    sum.before += w.totals.before;
+    sum.energy_before += w.totals.energy_before;
+    sum.energy_kept += w.totals.energy_kept;
+  }
+  SparseRows rows = builder.finish();
+  log.count("visibility_rays", sum.gather.rays);
+  log.count("links", sum.gather.links);
+  log.count("coefficients_before_truncation", sum.before);
+  log.count("non_zeros", static_cast<int64_t>(rows.entries.size()));
+  if (sum.energy_before > 0.0)
+    log.count("row_energy_kept_ppm", std::llround(1e6 * sum.energy_kept / sum.energy_before));
+  return rows;
+}
+
+}  // namespace relight::direct_to_indirect

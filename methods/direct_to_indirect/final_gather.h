@@ -1,0 +1,46 @@
+// The diffuse final-gather matrix F_d in wavelet space (Hasan 2006 section 4.3): hierarchical links from view
+// samples to clusters of gather samples, each row transformed to Haar while the tree is walked, so that the
+// cost of a row is proportional to its links and no dense row ever exists; then area-weighted selection of
+// coefficients.
+//
+// F_ij = max-clamped  cos(theta_i) cos(theta_j) A_j / (pi r^2) V_ij, so that indirect radiance = k_d * (F g)
+// with g the diffuse radiance leaving the gather samples (equation 5, M = 0). cos(theta_i) is taken with the
+// shading normal of the view sample, cos(theta_j) with the geometric normal of the gather sample (it converts
+// area to solid angle).
+//
+// Does not do: the glossy matrix, any other treatment of corners than the clamp.
+#pragma once
+
+#include <cstdint>
+
+#include "common/linalg/sparse_rows.h"
+#include "common/run/progress.h"
+#include "common/run/stage_log.h"
+#include "common/sampling/deep_frame_buffer.h"
+#include "common/sampling/gather_cloud.h"
+#include "common/tracing/ray_tracer.h"
+#include "methods/direct_to_indirect/hierarchy.h"
+
+namespace relight::direct_to_indirect {
+
+enum class Selection { area, magnitude };
+
+struct FinalGatherSettings {
+  float link_threshold =
+      0.01f;  // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+  float form_factor_clamp = 0.1f;  // largest element
+  int coefficients = 100;          // kept a row
+  Selection selection = Selection::area;
+  uint64_t seed = 1;
+};
+
+// One row a view sample of `buffer` (empty for invalid ones), one column a wavelet coefficient of the ordered
+// cloud. Logs counters visibility_rays, links, coefficients_before_truncation, non_zeros, energy shares.
+// Parallel over tiles of 4x4 pixels, whose view samples share their links' cut (refined for the closest of
+// them) and random members, so that visibility is tested by coherent packets of 16 rays. Deterministic for
+// any number of threads.
+SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                                const GatherCloud& cloud, const GatherHierarchy& hierarchy,
+                                const FinalGatherSettings& settings, Progress& progress, StageLog& log);
+
+}  // namespace relight::direct_to_indirect

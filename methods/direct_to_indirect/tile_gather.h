@@ -1,0 +1,61 @@
+// The hierarchical walk for one tile of up to 16 view samples: links, visibility packets, Haar transform in
+// the tree.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/sampling/gather_cloud.h"
+#include "common/tracing/ray_tracer.h"
+#include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/hierarchy.h"
+
+namespace relight::direct_to_indirect {
+
+constexpr int lanes = 16;
+using Lanes = std::array<float, lanes>;  // one value a view sample of the tile
+
+// A wavelet coefficient of all 16 rows.
+struct LaneCoefficient {
+  uint32_t index;
+  Lanes value;
+};
+
+struct GatherCounts {
+  int64_t rays = 0;   // segments tested
+  int64_t links = 0;  // (view sample, cluster) pairs evaluated
+};
+
+class TileGather {
+ public:
+  TileGather(const RayTracer& tracer, const GatherCloud& cloud, const GatherHierarchy& hierarchy,
+             const FinalGatherSettings& settings)
+      : tracer_(tracer), cloud_(cloud), tree_(hierarchy), settings_(settings) {}
+
+  // samples: 16 pointers, null where there is none. tile: a number that selects the random members.
+  // Fills coefficients() with every coefficient that is not zero for all lanes, in no particular order.
+  void gather(const std::array<const SurfaceSample*, lanes>& samples, uint64_t tile);
+  const std::vector<LaneCoefficient>& coefficients() const { return coefficients_; }
+  const GatherCounts& counts() const { return counts_; }
+
+ private:
+  Lanes visit(size_t level, size_t index, uint32_t mask);
+  Lanes link(size_t level, size_t index, uint32_t mask);
+  uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
+  uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
+  bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
+
+  const RayTracer& tracer_;
+  const GatherCloud& cloud_;
+  const GatherHierarchy& tree_;
+  const FinalGatherSettings& settings_;
+  uint64_t tile_ = 0;
+  // Structure of arrays, so that loops over lanes vectorise.
+  alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
+  std::array<glm::vec3, lanes> ray_start_{};
+  std::vector<LaneCoefficient> coefficients_;
+  GatherCounts counts_;
+};
+
+}  // namespace relight::direct_to_indirect
