@@ -38,11 +38,12 @@ TEST(FalseColour, DifferenceIsTheMeanMagnitudeOverFullScale) {
   EXPECT_THROW(difference_image(a, r, 0.0), Error);
 }
 
-// Bug: one bright pixel, or a NaN, sets the scale of all others.
+// Bug: one bright pixel, NaN or infinity sets the scale of all others.
 TEST(FalseColour, ScaleIgnoresOneBrightPixelInAHundred) {
   Image a(20, 10), r(20, 10);
   for (auto& pixel : a.pixels) pixel = glm::vec3(0.25f);
   a.pixels[3] = glm::vec3(1000.0f);
+  for (size_t i = 10; i < 25; ++i) a.pixels[i] = glm::vec3(std::numeric_limits<float>::infinity());
   a.pixels[4] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(difference_scale(a, r), 0.25);
   Image one = r;
