@@ -1,5 +1,13 @@
 // Monte Carlo reference: an Embree path tracer with next-event estimation, and a second estimator with better
 // sampling of light-driven paths; per-pixel mean and variance of the mean by independent batches.
+//
+// What goes where: `direct` holds point lights seen from the visible surface (0 bounces) and, where
+// LightPaths counts them, emission and environment seen by the camera. `indirect` holds
+// min_bounces..max_bounces bounces. Environment and emission have no exact direct part: what they send to the
+// visible surface (0 bounces) is sampled, and is part of `indirect` if and only if min_bounces = 0. A lobe
+// that LightPaths doesn't allow at a vertex neither reflects nor is sampled there; `direct` always has both
+// lobes. Does not do: area lights as targets of next-event estimation, refraction, caustics from glossy
+// surfaces (found by chance).
 #pragma once
 
 #include <cstdint>
@@ -16,29 +24,37 @@ namespace relight {
 
 enum class Estimator {
   next_event,   // BRDF sampling, next-event estimation at every vertex
-  light_vertex  // the same, MIS-combined at every vertex with a connection to the first surface hit by a path from a light
+  light_vertex  // the same, MIS-combined at every vertex with a connection to the first surface hit by a path
+                // from a light
 };
 
 struct PathTracerSettings {
-  LightPaths paths;            // which bounces and lobes count; direct light (0 bounces) is always rendered apart
-  int samples_per_pixel = 256; // indirect paths a pixel, spread evenly over the 2x2 sub-pixels of the deep frame buffer
-  int batches = 8;             // independent scramblings; variance comes from their spread. >= 2
+  LightPaths paths;  // which bounces and lobes count; direct light (0 bounces) is always rendered apart
+  int samples_per_pixel =
+      256;          // indirect paths a pixel, spread evenly over the 2x2 sub-pixels of the deep frame buffer
+  int batches = 8;  // independent scramblings; variance comes from their spread. >= 2
   Estimator estimator = Estimator::light_vertex;
   uint64_t seed = 1;
-  double time_limit_s = 0.0;   // > 0: stop before the batch that would exceed it (whole batches only)
+  double time_limit_s = 0.0;  // > 0: stop before the batch that would exceed it (whole batches, direct light
+                              // included; at least two batches, or one with one_sequence)
+  bool one_sequence =
+      false;  // batches continue one Sobol sequence: less noise under a time limit, but no variance
 };
 
 struct PathTracerResult {
   Image direct;             // exact: traced shadows at the 2x2 sub-pixels, box-filtered; full BRDF
   Image indirect;           // mean
-  Image indirect_variance;  // variance of the mean, per channel
+  Image indirect_variance;  // variance of the mean, per channel; empty with one_sequence
   int samples_per_pixel = 0, batches = 0;  // actually done
   int64_t rays = 0;
   int64_t non_finite = 0;  // samples replaced by zero; > 0 is a failure to report
   Image total() const;
 };
 
-PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buffer, const LightingState& lighting,
-                            const PathTracerSettings& settings, Progress& progress, StageLog& log);
+// Logs stages "direct" and "indirect". Same bits for any number of threads (unless a time limit ends it).
+// Throws Error for settings out of range.
+PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                            const LightingState& lighting, const PathTracerSettings& settings,
+                            Progress& progress, StageLog& log);
 
 }  // namespace relight

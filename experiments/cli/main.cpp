@@ -4,8 +4,8 @@
 #include <exception>
 #include <new>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/usage_error.h"
@@ -41,9 +41,10 @@ void print_parse_error(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Compares relighting algorithms against a path-traced reference: how wrong is each, what did that "
-               "accuracy cost, and which light paths does it leave out?",
-               "relight");
+  CLI::App app(
+      "Compares relighting algorithms against a path-traced reference: how wrong is each, what did that "
+      "accuracy cost, and which light paths does it leave out?",
+      "relight");
   app.require_subcommand(1);
   Action action;
   relight::cli::add_scene_command(app, action);

@@ -48,7 +48,8 @@ RunRecord compare_method(const ComparePlan& plan, const MethodPlan& method, Sess
   StageLog reference_log;
   const ReferenceImages& reference = references.find(method, reference_log);
   add_errors(record, run.relit, reference, session);
-  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(), reference_log.warnings().end());
+  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
+                         reference_log.warnings().end());
   write_run_images(plan.out, record.method, run.relit, reference.result,
                    {{"relight.scene", record.scene},
                     {"relight.lighting", record.lighting},

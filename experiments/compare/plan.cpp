@@ -42,8 +42,8 @@ std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
       valid += (valid.empty() ? "" : ", ") + method->name();
     }
     if (!known) {
-      usage_fail("--set '{}': '{}' is not among the methods of this run; valid: {}", text, settings.back().method,
-                 valid);
+      usage_fail("--set '{}': '{}' is not among the methods of this run; valid: {}", text,
+                 settings.back().method, valid);
     }
   }
   return settings;
@@ -83,7 +83,8 @@ LightPaths reference_paths(const ComparePlan& plan, const MethodPlan& method) {
   return paths;
 }
 
-std::string command_line(const ComparePlan& plan, const std::string& lights, const std::vector<MethodPlan>& methods) {
+std::string command_line(const ComparePlan& plan, const std::string& lights,
+                         const std::vector<MethodPlan>& methods) {
   std::string names;
   for (const MethodPlan& method : methods) names += (names.empty() ? "" : ",") + method.method->name();
   std::string command = "relight compare";

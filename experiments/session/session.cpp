@@ -37,8 +37,8 @@ std::string preset_names(const Scene& scene) {
 
 LightingState load_named_lighting(const Scene& scene, const std::string& name) {
   if (!scene.lightings.contains(name) && !std::filesystem::exists(name)) {
-    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name, scene.name,
-               preset_names(scene));
+    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name,
+               scene.name, preset_names(scene));
   }
   LightingState lighting = load_lighting(scene, name);
   validate(lighting);
@@ -73,9 +73,9 @@ std::string choose_lighting(const Scene& scene, const std::string& wanted) {
 }
 
 ArtefactCache open_cache(const SessionOptions& options) {
-  return ArtefactCache(
-      options.cache_folder.empty() ? ArtefactCache::default_folder() : std::filesystem::path(options.cache_folder),
-      !options.no_cache);
+  return ArtefactCache(options.cache_folder.empty() ? ArtefactCache::default_folder()
+                                                    : std::filesystem::path(options.cache_folder),
+                       !options.no_cache);
 }
 
 Session::Session(const SessionOptions& options, Gpu gpu)

@@ -1,0 +1,93 @@
+#include "common/image/exr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+#include "common/run/atomic_file.h"
+#include "common/run/error.h"
+
+namespace relight {
+
+namespace {
+
+// NaN and infinity must not pass for black or white when somebody looks at a picture.
+constexpr glm::u8vec3 non_finite_colour{255, 0, 255};
+
+// `size` pixels of one row-major buffer; `what` is the file that the user asked for, not the temporary one.
+void write_pixels(const std::filesystem::path& temporary, const std::filesystem::path& what,
+                  const OIIO::ImageSpec& spec, const void* pixels) {
+  const auto out = OIIO::ImageOutput::create(temporary.string());
+  if (!out) fail("cannot write '{}': {}", what.string(), OIIO::geterror());
+  if (!out->open(temporary.string(), spec)) fail("cannot write '{}': {}", what.string(), out->geterror());
+  // close() writes what is buffered: a full disk may show only there.
+  const bool written = out->write_image(spec.format, pixels);
+  if (!out->close() || !written) fail("cannot write '{}': {}", what.string(), out->geterror());
+}
+
+void require_pixels(const std::filesystem::path& file, const Image& image) {
+  if (image.width < 1 || image.height < 1) fail("cannot write '{}': the image has no pixels", file.string());
+}
+
+// IEC 61966-2-1, linear [0,1] to encoded [0,255].
+uint8_t encode_srgb(float linear) {
+  const float x = std::clamp(linear, 0.0f, 1.0f);
+  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+  return static_cast<uint8_t>(std::lround(255.0f * encoded));
+}
+
+glm::u8vec3 encode_pixel(const glm::vec3& linear) {
+  if (!std::isfinite(linear.x) || !std::isfinite(linear.y) || !std::isfinite(linear.z))
+    return non_finite_colour;
+  return {encode_srgb(linear.x), encode_srgb(linear.y), encode_srgb(linear.z)};
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const Image& image,
+               const std::map<std::string, std::string>& metadata) {
+  require_pixels(file, image);
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  write_atomically(file, [&](const std::filesystem::path& temporary) {
+    write_pixels(temporary, file, spec, image.pixels.data());
+  });
+}
+
+Image read_exr(const std::filesystem::path& file) {
+  const auto in = OIIO::ImageInput::open(file.string());
+  if (!in) fail("cannot read '{}': {}", file.string(), OIIO::geterror());
+  const OIIO::ImageSpec& spec = in->spec();
+  const int channels = spec.nchannels;
+  if (channels != 1 && channels < 3)
+    fail("cannot read '{}': it has {} channels; valid: 1 (grey) or at least 3 (RGB)", file.string(),
+         channels);
+  const int used = std::min(channels, 3);
+  Image image(spec.width, spec.height);
+  std::vector<float> values(image.pixels.size() * static_cast<size_t>(used));
+  if (!in->read_image(0, 0, 0, used, OIIO::TypeDesc::FLOAT, values.data()))
+    fail("cannot read '{}': {}", file.string(), in->geterror());
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] =
+        used == 1 ? glm::vec3(values[i]) : glm::vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  return image;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image, float exposure) {
+  require_pixels(file, image);
+  std::vector<glm::u8vec3> encoded(image.pixels.size());
+  std::transform(image.pixels.begin(), image.pixels.end(), encoded.begin(),
+                 [&](const glm::vec3& pixel) { return encode_pixel(exposure * pixel); });
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  write_atomically(file, [&](const std::filesystem::path& temporary) {
+    write_pixels(temporary, file, spec, encoded.data());
+  });
+}
+
+}  // namespace relight

@@ -1,0 +1,50 @@
+// The point lights of a lighting state as a path tracer samples them: which light, and which direction from
+// it.
+#pragma once
+
+#include <vector>
+
+#include "common/lights/light.h"
+
+namespace relight {
+
+// A ray leaving a light. `directional_pdf` counts the choice of the light too [1/sr].
+struct LightRay {
+  size_t light = 0;
+  glm::vec3 origin{0.0f}, direction{0.0f};
+  float directional_pdf = 0.0f;  // 0: there is nothing to sample
+};
+
+class LightSampler {
+ public:
+  explicit LightSampler(const LightingState& lighting);
+
+  size_t size() const { return lights_.size(); }
+  const shader::LightParams& params(size_t light) const { return lights_[light].params; }
+  glm::vec3 position(size_t light) const { return glm::vec3(lights_[light].params.position_type); }
+  bool casts_shadows(size_t light) const { return lights_[light].casts_shadows; }
+
+  // Light chosen for next-event estimation with u in [0,1), in proportion to its power.
+  size_t choose(float u) const;
+  float probability(size_t light) const { return lights_[light].probability; }
+
+  // Emission: an omni light uniformly over the sphere, a spot uniformly over its outer cone. Lights without
+  // shadows are left out, because light rays stop at the first surface and theirs don't.
+  LightRay emit(float u_light, const glm::vec2& u) const;
+  // The directional_pdf with which emit() leaves `light` in a direction where its intensity isn't zero.
+  float emission_pdf(size_t light) const { return lights_[light].emission_pdf; }
+
+ private:
+  struct Entry {
+    shader::LightParams params;
+    bool casts_shadows = true;
+    double one_minus_cosine = 2.0;  // of the cone of directions; 2 for the sphere
+    float probability = 0.0f;       // of choose()
+    double cumulative = 0.0;        // upper end of its interval in choose()
+    float emission_pdf = 0.0f;
+    double emission_cumulative = 0.0;
+  };
+  std::vector<Entry> lights_;
+};
+
+}  // namespace relight
