@@ -37,7 +37,7 @@ Texture Texture::image_2d(int width, int height, uint32_t internal_format) {
   Object object = new_texture(GL_TEXTURE_2D);
   glTextureStorage2D(object.id(), 1, internal_format, width, height);
   check_allocated(width, height, 1);
-  return Texture(std::move(object), width, height, 1);
+  return Texture(std::move(object), width, height, 0);
 }
 
 Texture Texture::cube(int size, uint32_t internal_format) {
@@ -64,12 +64,12 @@ Framebuffer::Framebuffer() : object_(create_object(ObjectKind::framebuffer)) {
 }
 
 void Framebuffer::attach_depth(const Texture& texture, int layer) const {
-  if (texture.layers() == 1) return glNamedFramebufferTexture(id(), GL_DEPTH_ATTACHMENT, texture.id(), 0);
+  if (texture.layers() == 0) return glNamedFramebufferTexture(id(), GL_DEPTH_ATTACHMENT, texture.id(), 0);
   glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, texture.id(), 0, layer);
 }
 
 void Framebuffer::attach_color(const Texture& texture, int layer) const {
-  if (texture.layers() == 1) {
+  if (texture.layers() == 0) {
     glNamedFramebufferTexture(id(), GL_COLOR_ATTACHMENT0, texture.id(), 0);
   } else {
     glNamedFramebufferTextureLayer(id(), GL_COLOR_ATTACHMENT0, texture.id(), 0, layer);

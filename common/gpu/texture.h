@@ -21,14 +21,15 @@ class Texture {
   void bind(int unit) const;
   int width() const { return width_; }
   int height() const { return height_; }
-  int layers() const { return layers_; }
+  int layers() const { return layers_; }  // of an array or cube; 0 for a plain 2-D texture
   uint32_t id() const { return object_.id(); }
 
  private:
   Texture(Object object, int width, int height, int layers)
       : object_(std::move(object)), width_(width), height_(height), layers_(layers) {}
   Object object_;
-  int width_ = 0, height_ = 0, layers_ = 0;
+  int width_ = 0, height_ = 0;
+  int layers_ = 0;  // 0: a plain 2-D texture
 };
 
 class Framebuffer {

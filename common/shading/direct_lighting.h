@@ -1,5 +1,5 @@
-// Deferred direct lighting of any set of surface samples (view or gather), on the GPU with shadow maps or with
-// traced shadows (Hasan 2006 section 5, first paragraphs), and its plain CPU twin.
+// Deferred direct lighting of any set of surface samples (view or gather), on the GPU with shadow maps or
+// with traced shadows (Hasan 2006 section 5, first paragraphs), and its plain CPU twin.
 #pragma once
 
 #include <memory>
@@ -21,11 +21,16 @@ class GpuSamples {
   GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye);
   size_t size() const { return samples_.size(); }
   const std::vector<SurfaceSample>& host() const { return samples_; }
+  const glm::vec3& eye() const { return eye_; }
   int64_t bytes() const;
   void bind(int first_binding) const;
+  // Binds samples [first, first + count) for direct_lighting.glsl: all of a large view may exceed the largest
+  // storage block (128 MiB under llvmpipe).
+  void bind_range(int binding, int64_t first, int64_t count) const;
 
  private:
   std::vector<SurfaceSample> samples_;
+  glm::vec3 eye_;
   gpu::Buffer data_;
 };
 
@@ -41,11 +46,15 @@ enum class Lobes { diffuse, all };
 
 class DirectLighting {
  public:
-  DirectLighting(gpu::Context& gpu, const Scene& scene, const RayTracer& tracer, DirectLightingSettings settings);
+  DirectLighting(gpu::Context& gpu, const Scene& scene, const RayTracer& tracer,
+                 DirectLightingSettings settings);
   ~DirectLighting();
-  // Renders the shadow maps (or traces the shadow rays) for each light once and shades every set: out[i] receives
-  // one vec4 a sample, rgb = radiance leaving sets[i] towards the eye (for Lobes::diffuse: in any direction).
-  // Logs stages "shadow_maps" (or "shadow_rays") and "direct_shading".
+  // Renders the shadow maps (or traces the shadow rays) for each light once and shades every set: out[i]
+  // receives one vec4 a sample, rgb = radiance leaving sets[i] towards the eye (for Lobes::diffuse: in any
+  // direction). Emission is not included. Lights of zero intensity cost nothing. Logs stages "shadow_maps"
+  // (or "shadow_rays") and "direct_shading", counters shadow_maps_rendered (1 for a spot, up to 6 for a
+  // cube), shadow_rays and shader_invocations; a radiance that is not finite is counted, warned of and
+  // replaced by zero (debug: an Error).
   struct Request {
     const GpuSamples* samples;
     Lobes lobes;

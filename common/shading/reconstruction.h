@@ -1,19 +1,22 @@
-// From one indirect value a pixel and 2x2 direct values a pixel to the final image (Hasan 2006 section 3.6): each
-// sub-sample takes the indirect value of the closest view sample (by normal and position) in the 3x3 pixels around it,
-// then a 2x2 box filter.
+// From one indirect value a pixel and 2x2 direct values a pixel to the final image (Hasan 2006 section 3.6):
+// each sub-sample takes the indirect value of the closest view sample (by normal and position) in the 3x3
+// pixels around it, then a 2x2 box filter.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "common/gpu/buffer.h"
+#include "common/gpu/program.h"
 #include "common/image/image.h"
 #include "common/sampling/deep_frame_buffer.h"
 
 namespace relight {
 
-// For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff where the
-// sub-sample hit nothing. Depends on the view only.
+// For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff
+// where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" is the distance of equation 9, K^2
+// |p-p'|^2 + d^2 |n-n'|^2, with shading normals, K = 30 and d the extent of the visible points; the own pixel
+// wins ties. Depends on the view only. Parallel, deterministic.
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer);
 
 // CPU twin. indirect: one radiance a pixel. Returns the box-filtered indirect image.
@@ -23,11 +26,13 @@ Image reconstruct_indirect_cpu(const DeepFrameBuffer& buffer, const std::vector<
 // Box filter over each pixel's 2x2 sub-samples.
 Image box_filter_2x2(const std::vector<glm::vec3>& subsamples, int width, int height);
 
-// The same on the GPU; logs stage "reconstruction".
+// The same on the GPU, equal bit by bit; logs stage "reconstruction". Needs a current context.
 class Reconstruction {
  public:
   explicit Reconstruction(const DeepFrameBuffer& buffer);
-  // direct: vec4 a sub-sample; indirect: vec4 a pixel. Downloads both filtered images.
+  int64_t bytes() const { return closest_.bytes() + direct_image_.bytes() + indirect_image_.bytes(); }
+  // direct: vec4 a sub-sample; indirect: vec4 a pixel. Downloads both filtered images. Pixels that are not
+  // finite are counted (non_finite_reconstruction), warned of and replaced by zero (debug: an Error).
   struct Images {
     Image direct, indirect;
   };
@@ -36,6 +41,8 @@ class Reconstruction {
  private:
   int width_, height_;
   gpu::Buffer closest_;
+  gpu::Program program_;
+  gpu::Buffer direct_image_, indirect_image_;
 };
 
 }  // namespace relight

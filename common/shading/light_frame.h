@@ -1,0 +1,39 @@
+// The cameras of a light's shadow maps: one for a spot, the six faces of a cube for an omni or a wide spot.
+#pragma once
+
+#include <array>
+
+#include <glm/glm.hpp>
+
+#include "common/lights/light.h"
+
+namespace relight {
+
+// One square shadow map. Map coordinates of a point q seen from the light: with rel = q - position,
+// x = dot(right, rel) / (tan_half * d), y likewise with up, d = dot(forward, rel); both in [-1,1] inside the
+// map.
+struct ShadowFace {
+  glm::vec3 right, up, forward;  // orthonormal; handedness does not matter, nothing is culled by facing
+};
+
+struct LightFrame {
+  glm::vec3 position;
+  glm::mat3 axes;         // columns x, y, z of the light's own frame; z is a spot's direction
+  float tan_half = 1.0f;  // tangent of half the opening of a map
+  float near = 1.0f;      // depth nearer than which nothing is drawn
+  int faces = 0;          // 1: map around z; 5 or 6: cube
+  // Faces in the order +z, +x, -x, +y, -y, -z (as shadow_map.glsl reads them).
+  ShadowFace face(int i) const;
+};
+
+// A single map's texels stretch with 1/cos^2 towards its rim; beyond 60 degrees four fifths of them would be
+// spent outside a cube face's share.
+constexpr float widest_single_map_degrees = 60.0f;
+
+// clearance: distance from the light to the nearest surface; reach: to the farthest point of the scene. Both
+// in scene units, >= 0. map_size: texels a side. The near plane lies at half the depth that the nearest
+// surface can have in a corner of a map, so it cuts nothing; for a light on a surface it lies at 2^-20 of the
+// reach, which is below the rounding of the positions themselves.
+LightFrame light_frame(const Light& light, float clearance, float reach, int map_size);
+
+}  // namespace relight

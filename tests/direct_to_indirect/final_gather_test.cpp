@@ -1,0 +1,129 @@
+// Final-gather rows against a brute-force double-precision oracle of every (view sample, gather sample) pair.
+#include "methods/direct_to_indirect/final_gather.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "common/run/thread_limit.h"
+#include "common/wavelet/haar.h"
+#include "tests/direct_to_indirect/gather_setup.h"
+#include "tests/support/tiny_scenes.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+// F_ij of final_gather.h, pair by pair, in double, without tree, tile or packet.
+std::vector<double> oracle_row(const GatherSetup& s, const SurfaceSample& v, double clamp) {
+  std::vector<double> row(s.cloud.samples.size(), 0.0);
+  for (size_t j = 0; j < row.size(); ++j) {
+    const SurfaceSample& g = s.cloud.samples[j];
+    const glm::dvec3 w = glm::dvec3(g.position) - glm::dvec3(v.position);
+    const double r2 = glm::dot(w, w);
+    const double cv = glm::dot(glm::dvec3(v.shading_normal), w), cg = -glm::dot(glm::dvec3(g.geometric_normal), w);
+    if (!(r2 > 0.0) || cv <= 0.0 || cg <= 0.0 || glm::dot(glm::dvec3(v.geometric_normal), w) <= 0.0) continue;
+    if (!s.tracer.visible(v.position, v.geometric_normal, g.position, g.geometric_normal)) continue;
+    row[j] = std::min(clamp, cv * cg * static_cast<double>(s.cloud.area[j]) / (std::numbers::pi * r2 * r2));
+  }
+  return row;
+}
+
+// Largest difference over all rows, relative to the largest element of the oracle's row.
+double worst_difference(GatherSetup& s, const FinalGatherSettings& settings, double clamp) {
+  const SparseRows rows = s.final_gather(settings);
+  double worst = 0.0;
+  for (size_t i = 0; i < s.buffer.indirect.size(); i += 5) {
+    if (!s.buffer.indirect[i].valid) continue;
+    const std::vector<double> expected = oracle_row(s, s.buffer.indirect[i], clamp);
+    const std::vector<double> got = wavelet::inverse(dense_row(rows, i));
+    double scale = 0.0;
+    for (const double e : expected) scale = std::max(scale, e);
+    for (size_t j = 0; j < got.size(); ++j) worst = std::max(worst, std::abs(got[j] - expected[j]) / scale);
+  }
+  return worst;
+}
+
+// All links to single samples, nothing truncated: the tree-transformed row is the Haar transform of the dense row.
+// Red if a cull drops a visible sample, a detail has the wrong sign or index, or a lane takes its neighbour's value.
+TEST(FinalGather, UntruncatedRowsEqualTheBruteForceOracle) {
+  GatherSetup s(tiny::room(), 20, 15, 1024, true);  // 15 rows: the last tile row is incomplete
+  // Float F (some 10 roundings) and five levels of float Haar.
+  EXPECT_LT(worst_difference(s, exact_settings(1024), 1e30), 2e-5);
+}
+
+// Red if the clamp is applied to the scaled coefficient instead of the element.
+TEST(FinalGather, ClampsElementsAtTheGivenValue) {
+  GatherSetup s(tiny::room(), 16, 12, 256, true);
+  FinalGatherSettings settings = exact_settings(256);
+  settings.form_factor_clamp = 0.01f;
+  EXPECT_LT(worst_difference(s, settings, 0.01), 2e-5);
+}
+
+// Red if keep_largest keeps the smallest, or weights do not follow the support.
+TEST(FinalGather, KeepsTheCoefficientsWithTheLargestAreaWeightedSize) {
+  GatherSetup s(tiny::room(), 8, 8, 1024, true);
+  const SparseRows all = s.final_gather(exact_settings(1024)), few = s.final_gather(exact_settings(20));
+  for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {
+    const std::vector<double> full = dense_row(all, i), kept = dense_row(few, i);
+    double smallest_kept = INFINITY, largest_left = 0.0;
+    int count = 0, available = 0;
+    for (uint32_t c = 0; c < 1024; ++c) {
+      const double weight = std::abs(full[c]) * wavelet::support(c, 1024);
+      available += full[c] != 0.0;
+      if (kept[c] != 0.0) {
+        EXPECT_EQ(kept[c], full[c]);
+        smallest_kept = std::min(smallest_kept, weight);
+        ++count;
+      } else {
+        largest_left = std::max(largest_left, weight);
+      }
+    }
+    EXPECT_EQ(count, std::min(available, 20));  // walls seen from outside have none
+    EXPECT_GE(smallest_kept, largest_left);
+  }
+}
+
+// Links to clusters approximate the row; its sum (the share of the hemisphere that is covered) must stay close, and
+// fewer rays must be needed. Red if a link forgets the cluster's size.
+TEST(FinalGather, ClusterLinksKeepTheSumOfTheRow) {
+  GatherSetup s(tiny::room(), 16, 12, 4096);
+  FinalGatherSettings settings = exact_settings(4096);
+  const SparseRows exact = s.final_gather(settings);
+  settings.link_threshold = 0.02f;
+  const SparseRows linked = s.final_gather(settings);
+  double difference2 = 0.0, sum2 = 0.0;
+  for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {
+    if (!s.buffer.indirect[i].valid) continue;
+    const double a = dense_row(exact, i)[0], b = dense_row(linked, i)[0];
+    difference2 += (a - b) * (a - b), sum2 += a * a;
+  }
+  EXPECT_LT(std::sqrt(difference2 / sum2), 0.02);
+}
+
+// Red if the random members depend on the thread, or a worker's scratch leaks from tile to tile.
+TEST(FinalGather, HasTheSameBitsForOneAndTwoThreads) {
+  GatherSetup s(tiny::room(), 24, 20, 1024);
+  FinalGatherSettings settings;
+  settings.coefficients = 50;
+  std::vector<SparseRows> rows;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    rows.push_back(s.final_gather(settings));
+  }
+  ASSERT_EQ(rows[0].entries.size(), rows[1].entries.size());
+  for (size_t e = 0; e < rows[0].entries.size(); ++e) {
+    EXPECT_EQ(rows[0].entries[e].column, rows[1].entries[e].column);
+    EXPECT_EQ(rows[0].entries[e].value, rows[1].entries[e].value);
+  }
+}
+
+TEST(FinalGather, HasEmptyRowsWhereTheCameraSeesNothing) {
+  Scene scene = tiny::room();
+  scene.camera.target = scene.camera.eye + glm::vec3(0, 0, 5);
+  GatherSetup s(std::move(scene), 8, 8, 256);
+  EXPECT_EQ(s.final_gather({}).entries.size(), 0u);
+}
+
+}  // namespace
+}  // namespace relight::direct_to_indirect
