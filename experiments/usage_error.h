@@ -1,4 +1,5 @@
-// A mistake on the command line (unknown name, value out of range): exit code 2. Every other Error exits with 1.
+// A mistake on the command line (unknown name, value out of range): exit code 2. Every other Error exits
+// with 1.
 #pragma once
 
 #include "common/run/error.h"

@@ -102,7 +102,8 @@ Json time_to_json(const RunRecord& record) {
             {"max", number(relight.max)},
             {"repeats", relight.repeats}}},
           {"stages",
-           {{"precompute", stages_to_json(record.precompute_stages)},
+           {{"setup", stages_to_json(record.setup_stages)},
+            {"precompute", stages_to_json(record.precompute_stages)},
             {"relight", stages_to_json(record.relight_stages)}}}};
 }
 
@@ -111,6 +112,7 @@ void time_from_json(const Json& json, RunRecord& record) {
   const Json& relight = json.at("relight_ms");
   record.relight_ms = {number_from(relight.at("median")), number_from(relight.at("min")),
                        number_from(relight.at("max")), relight.at("repeats").get<int>()};
+  record.setup_stages = stages_from_json(json.at("stages").at("setup"));
   record.precompute_stages = stages_from_json(json.at("stages").at("precompute"));
   record.relight_stages = stages_from_json(json.at("stages").at("relight"));
 }
@@ -140,6 +142,10 @@ RunRecord record_from(const Json& json) {
   json.at("knobs").get_to(record.knobs);
   json.at("seed").get_to(record.seed);
   json.at("light_paths").get_to(record.light_paths);
+  json.at("reference_paths").get_to(record.reference_paths);
+  json.at("not_simulated").get_to(record.not_simulated);
+  json.at("command").get_to(record.command);
+  record.exposure = number_from(json.at("exposure"));
   json.at("width").get_to(record.width);
   json.at("height").get_to(record.height);
   json.at("triangles").get_to(record.triangles);
@@ -151,8 +157,9 @@ RunRecord record_from(const Json& json) {
   json.at("counters").get_to(record.counters);
   if (json.contains("reference")) {
     const Json& cost = json["reference"];
-    record.reference = {cost.at("samples").get<int64_t>(), cost.at("batches").get<int64_t>(),
-                        number_from(cost.at("seconds"))};
+    record.reference = {cost.at("samples").get<int64_t>(),        cost.at("batches").get<int64_t>(),
+                        number_from(cost.at("seconds")),          cost.at("rays").get<int64_t>(),
+                        cost.at("estimator").get<std::string>(), cost.at("from_cache").get<bool>()};
   }
   json.at("warnings").get_to(record.warnings);
   json.at("failed_stages").get_to(record.failed_stages);
@@ -170,6 +177,10 @@ std::string record_to_json(const RunRecord& record) {
                {"knobs", record.knobs},
                {"seed", record.seed},
                {"light_paths", record.light_paths},
+               {"reference_paths", record.reference_paths},
+               {"not_simulated", record.not_simulated},
+               {"command", record.command},
+               {"exposure", number(record.exposure)},
                {"width", record.width},
                {"height", record.height},
                {"triangles", record.triangles},
@@ -181,7 +192,8 @@ std::string record_to_json(const RunRecord& record) {
   json["counters"] = record.counters;
   if (const auto& cost = record.reference)
     json["reference"] = {
-        {"samples", cost->samples}, {"batches", cost->batches}, {"seconds", number(cost->seconds)}};
+        {"samples", cost->samples}, {"batches", cost->batches},     {"seconds", number(cost->seconds)},
+        {"rays", cost->rays},       {"estimator", cost->estimator}, {"from_cache", cost->from_cache}};
   json["warnings"] = record.warnings;
   json["failed_stages"] = record.failed_stages;
   json["provenance"] = provenance_to_json(record.provenance);

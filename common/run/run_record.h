@@ -27,7 +27,10 @@ RelightTime summarise_times(const std::vector<double>& milliseconds);
 struct ReferenceCost {
   int64_t samples = 0;  // a pixel
   int64_t batches = 0;
-  double seconds = 0;
+  double seconds = 0;  // wall time of this run: tracing it, or loading it from the cache
+  int64_t rays = 0;
+  std::string estimator;
+  bool from_cache = false;
 };
 
 struct RunRecord {
@@ -35,7 +38,11 @@ struct RunRecord {
   std::string scene, view, lighting, method;
   std::map<std::string, std::string> knobs;  // fully resolved
   uint64_t seed = 0;
-  std::string light_paths;  // LightPaths::to_string() of method and reference alike
+  std::string light_paths;      // LightPaths::to_string() of the method
+  std::string reference_paths;  // and of the reference that it was compared with
+  std::vector<std::string> not_simulated;  // what the scene has and the method leaves out, in words
+  std::string command;                     // command line that repeats this run, every setting written out
+  double exposure = 1;                     // the scene's fixed factor before the clamp of `relative`
   int width = 0, height = 0;
   int64_t triangles = 0;
   std::string scene_hash;  // content hash of the scene
@@ -47,7 +54,7 @@ struct RunRecord {
   // What it cost.
   double precompute_s = 0;
   RelightTime relight_ms;
-  std::vector<std::pair<std::string, double>> precompute_stages,
+  std::vector<std::pair<std::string, double>> setup_stages, precompute_stages,
       relight_stages;                           // [s], in order of execution
   std::map<std::string, int64_t> memory_bytes;  // by artefact; "process_peak" is peak_memory_bytes()
   std::map<std::string, int64_t> counters;

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -24,7 +24,8 @@ int list_cache(const SessionOptions& options) {
     bytes += entry.bytes;
   }
   if (!entries.empty()) fmt::print("{}", table.to_string());
-  fmt::print("{}: {} files, {:.1f} MB\n", cache.folder().string(), entries.size(), static_cast<double>(bytes) * 1e-6);
+  fmt::print("{}: {} files, {:.1f} MB\n", cache.folder().string(), entries.size(),
+             static_cast<double>(bytes) * 1e-6);
   return 0;
 }
 

@@ -1,5 +1,5 @@
-// The subcommands of the program, one file each. A subcommand declares its options on the parser and, when it was
-// chosen, sets `action` to what should run once parsing has succeeded.
+// The subcommands of the program, one file each. A subcommand declares its options on the parser and, when it
+// was chosen, sets `action` to what should run once parsing has succeeded.
 #pragma once
 
 #include <functional>

@@ -4,10 +4,11 @@
 #include <exception>
 #include <new>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
+#include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
 
 namespace {
@@ -28,12 +29,12 @@ void print_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   std::string valid;
   for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
-    valid += (valid.empty() ? "" : ", ") + sub->get_name();
+    relight::append_name(valid, sub->get_name());
   }
   const char* kind = valid.empty() ? "options" : "commands";
   if (valid.empty()) {
     for (const CLI::Option* option : command.get_options()) {
-      valid += (valid.empty() ? "" : ", ") + option->get_name();
+      relight::append_name(valid, option->get_name());
     }
   }
   fmt::print(stderr, "{}: {}\nvalid {}: {}\nsee `{} --help`\n", path_of(command), error.what(), kind, valid,
@@ -41,9 +42,10 @@ void print_parse_error(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Compares relighting algorithms against a path-traced reference: how wrong is each, what did that "
-               "accuracy cost, and which light paths does it leave out?",
-               "relight");
+  CLI::App app(
+      "Compares relighting algorithms against a path-traced reference: how wrong is each, what did that "
+      "accuracy cost, and which light paths does it leave out?",
+      "relight");
   app.require_subcommand(1);
   Action action;
   relight::cli::add_scene_command(app, action);

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "common/scene/scene_file.h"
 #include "experiments/cli/commands.h"
@@ -38,9 +38,12 @@ void add_scene_command(CLI::App& app, Action& action) {
   CLI::App* list = command->add_subcommand("list", "The built-in scenes and their parameters");
   list->callback([&action] { action = list_scenes; });
   CLI::App* info = command->add_subcommand(
-      "info", "Sizes, closedness, albedo range, glossy share, environment, lighting presets and repairs of a scene");
+      "info",
+      "Sizes, closedness, albedo range, glossy share, environment, lighting presets and repairs of a scene");
   const auto name = std::make_shared<std::string>();
-  info->add_option("scene", *name, "Built-in scene with parameters, or a file")->required()->type_name("NAME|FILE");
+  info->add_option("scene", *name, "Built-in scene with parameters, or a file")
+      ->required()
+      ->type_name("NAME|FILE");
   info->callback([&action, name] { action = [name] { return scene_info(*name); }; });
 }
 

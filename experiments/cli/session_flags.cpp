@@ -5,13 +5,17 @@
 namespace relight::cli {
 
 void add_session_flags(CLI::App& command, SessionOptions& options) {
-  command.add_option("--scene", options.scene, "Built-in scene with parameters (see `relight scene list`), or a file")
+  command
+      .add_option("--scene", options.scene,
+                  "Built-in scene with parameters (see `relight scene list`), or a file")
       ->required()
       ->type_name("NAME|FILE");
   command.add_option("--view", options.view, "Size of the picture in pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  command.add_option("--lights", options.lights, "Lighting preset of the scene (see `relight scene info`), or a file")
+  command
+      .add_option("--lights", options.lights,
+                  "Lighting preset of the scene (see `relight scene info`), or a file")
       ->type_name("PRESET|FILE");
   command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
   command.add_option("--threads", options.threads, "Threads, 0 for all cores; results do not depend on it")
@@ -25,9 +29,10 @@ void add_session_flags(CLI::App& command, SessionOptions& options) {
 }
 
 void add_cache_folder_flag(CLI::App& command, SessionOptions& options) {
-  command.add_option("--cache", options.cache_folder,
-                     "Folder of precomputed data (default: $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else "
-                     "~/.cache/relight)")
+  command
+      .add_option("--cache", options.cache_folder,
+                  "Folder of precomputed data (default: $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else "
+                  "~/.cache/relight)")
       ->type_name("DIR");
 }
 

@@ -2,7 +2,6 @@
 
 #include <list>
 
-#include "common/sampling/random.h"
 #include "experiments/compare/image_files.h"
 #include "experiments/compare/method_record.h"
 #include "experiments/compare/reference_images.h"
@@ -27,8 +26,7 @@ class References {
     settings.paths = paths;
     settings.samples_per_pixel = plan_.reference_samples;
     settings.estimator = plan_.reference_estimator;
-    // Its own stream: with the seed of a path tracing method the errors of both would be correlated.
-    settings.seed = hash_combine(plan_.session.seed, 0x7265666572656e63ull);
+    settings.seed = plan_.session.seed;
     made_.push_back(reference_images(session_, settings, log));
     return made_.back();
   }
@@ -48,7 +46,8 @@ RunRecord compare_method(const ComparePlan& plan, const MethodPlan& method, Sess
   StageLog reference_log;
   const ReferenceImages& reference = references.find(method, reference_log);
   add_errors(record, run.relit, reference, session);
-  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(), reference_log.warnings().end());
+  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
+                         reference_log.warnings().end());
   write_run_images(plan.out, record.method, run.relit, reference.result,
                    {{"relight.scene", record.scene},
                     {"relight.lighting", record.lighting},

@@ -1,5 +1,5 @@
-// `relight compare`: runs every method of a plan, each against the reference restricted to its own light paths, and
-// leaves images, records and a page behind.
+// `relight compare`: runs every method of a plan, each against the reference restricted to its own light
+// paths, and leaves images, records and a page behind.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace relight {
 
-// Writes into plan.out, replacing an earlier comparison's records.jsonl: EXR images (image_files.h), records.jsonl (a
-// line as soon as a method is done) and index.html. A method that fails leaves a record with failed_stages; the others
-// still run. Throws Error if scene, context or output fails.
+// Writes into plan.out, replacing an earlier comparison's records.jsonl: EXR images (image_files.h),
+// records.jsonl (a line as soon as a method is done) and index.html. A method that fails leaves a record with
+// failed_stages; the others still run. Throws Error if scene, context or output fails.
 std::vector<RunRecord> compare(const ComparePlan& plan);
 
 // The table printed at the end, which light paths were compared, what was left out, failures and warnings.

@@ -1,4 +1,5 @@
-// Names and contents of the images that a comparison leaves in its folder; the report finds them by the same names.
+// Names and contents of the images that a comparison leaves in its folder; the report finds them by the same
+// names.
 #pragma once
 
 #include <filesystem>

@@ -23,8 +23,8 @@ void report_non_finite(RunRecord& record, const char* name, const Image& image) 
   }
   if (count == 0) return;
   const size_t width = static_cast<size_t>(image.width);
-  record.failed_stages.push_back(fmt::format("{} image: {} pixels are not finite, the first at ({}, {})", name, count,
-                                             first % width, first / width));
+  record.failed_stages.push_back(fmt::format("{} image: {} pixels are not finite, the first at ({}, {})",
+                                             name, count, first % width, first / width));
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ void add_costs(RunRecord& record, const MethodRun& run, const Session& session) 
   if (!run.failure.empty()) record.failed_stages.push_back(run.failure);
 }
 
-void add_errors(RunRecord& record, const Relit& relit, const ReferenceImages& reference, const Session& session) {
+void add_errors(RunRecord& record, const Relit& relit, const ReferenceImages& reference,
+                const Session& session) {
   const PathTracerResult& result = reference.result;
   const auto& edge = session.buffer().edge;
   const float exposure = session.scene().exposure;
@@ -83,9 +84,10 @@ void add_errors(RunRecord& record, const Relit& relit, const ReferenceImages& re
   record.reference->estimator = to_string(reference.settings.estimator);
   record.reference->from_cache = reference.from_cache;
   if (record.light_paths != record.reference_paths) {
-    record.warnings.push_back(fmt::format("the method carries {} but was compared against {}: the error includes "
-                                          "light that it does not simulate",
-                                          record.light_paths, record.reference_paths));
+    record.warnings.push_back(
+        fmt::format("the method carries {} but was compared against {}: the error includes "
+                    "light that it does not simulate",
+                    record.light_paths, record.reference_paths));
   }
   report_non_finite(record, "direct", relit.direct);
   report_non_finite(record, "indirect", relit.indirect);

@@ -15,8 +15,9 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
 // Adds times, bytes, counters and warnings.
 void add_costs(RunRecord& record, const MethodRun& run, const Session& session);
 
-// Adds the errors of total and indirect image against the reference, and what the reference cost. Pixels that are not
-// finite become an entry of failed_stages naming image and first pixel.
-void add_errors(RunRecord& record, const Relit& relit, const ReferenceImages& reference, const Session& session);
+// Adds the errors of total and indirect image against the reference, and what the reference cost. Pixels that
+// are not finite become an entry of failed_stages naming image and first pixel.
+void add_errors(RunRecord& record, const Relit& relit, const ReferenceImages& reference,
+                const Session& session);
 
 }  // namespace relight

@@ -11,13 +11,15 @@ std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& sce
   if (paths.min_bounces > 1) {
     sentences.push_back(fmt::format("indirect light of fewer than {} bounces", paths.min_bounces));
   }
-  sentences.push_back(
-      fmt::format("indirect light of more than {} bounce{}", paths.max_bounces, paths.max_bounces == 1 ? "" : "s"));
-  const auto glossy =
-      std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.is_glossy(); });
-  const std::string share = fmt::format("{} of the scene's {} materials are glossy", glossy, scene.materials.size());
+  sentences.push_back(fmt::format("indirect light of more than {} bounce{}", paths.max_bounces,
+                                  paths.max_bounces == 1 ? "" : "s"));
+  const auto glossy = std::count_if(scene.materials.begin(), scene.materials.end(),
+                                    [](const Material& m) { return m.is_glossy(); });
+  const std::string share =
+      fmt::format("{} of the scene's {} materials are glossy", glossy, scene.materials.size());
   if (glossy > 0 && !paths.glossy_at_eye) {
-    sentences.push_back(fmt::format("glossy reflection of indirect light at the visible surface ({})", share));
+    sentences.push_back(
+        fmt::format("glossy reflection of indirect light at the visible surface ({})", share));
   }
   if (glossy > 0 && !paths.glossy_interior) {
     sentences.push_back(fmt::format("glossy reflection at the surfaces behind the visible one ({})", share));

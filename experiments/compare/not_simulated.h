@@ -1,5 +1,5 @@
-// What a scene contains that a method's light paths leave out, in sentences for people: never compare a one-bounce
-// method with a full solution without saying so.
+// What a scene contains that a method's light paths leave out, in sentences for people: never compare a
+// one-bounce method with a full solution without saying so.
 #pragma once
 
 #include <string>

@@ -14,13 +14,13 @@ namespace relight {
 
 struct CompareOptions {
   SessionOptions session;
-  std::string methods;                           // comma-separated names
-  std::vector<std::string> settings;             // "method.knob=value"
-  std::string out;                               // folder
-  std::string bounces;                           // "a..b"; empty: each method's own
-  int reference_samples = 256;                   // indirect paths a pixel
+  std::string methods;                // comma-separated names
+  std::vector<std::string> settings;  // "method.knob=value"
+  std::string out;                    // folder
+  std::string bounces;                // "a..b"; empty: each method's own
+  int reference_samples = 256;        // indirect paths a pixel
   std::string reference_estimator = "light_vertex";
-  int repeats = 0;                               // timed relights; 0: five, fewer if one takes seconds
+  int repeats = 0;  // timed relights; 0: five, fewer if one takes seconds
 };
 
 struct MethodPlan {
@@ -39,7 +39,8 @@ struct ComparePlan {
   int repeats;
 };
 
-// Defaults plus those settings that name the method. Throws UsageError (unknown method or knob, value out of range).
+// Defaults plus those settings that name the method. Throws UsageError (unknown method or knob, value out of
+// range).
 MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings);
 
 // "method.knob=value" for each text; UsageError if one names a method outside `methods`.
@@ -49,11 +50,13 @@ std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
 // Checks all that can be checked without loading the scene. `methods` must outlive the plan.
 ComparePlan make_plan(const CompareOptions& options, const MethodList& methods);
 
-// The light paths that the reference of a method is restricted to: the method's own, or with --bounces in place of
-// its bounces.
+// The light paths that the reference of a method is restricted to: the method's own, or with --bounces in
+// place of its bounces.
 LightPaths reference_paths(const ComparePlan& plan, const MethodPlan& method);
 
-// The command line that repeats the run of `method` (or of every method of the plan) with every knob written out.
-std::string command_line(const ComparePlan& plan, const std::string& lights, const std::vector<MethodPlan>& methods);
+// The command line that repeats the run of `method` (or of every method of the plan) with every knob written
+// out.
+std::string command_line(const ComparePlan& plan, const std::string& lights,
+                         const std::vector<MethodPlan>& methods);
 
 }  // namespace relight

@@ -23,9 +23,9 @@ std::string words(const Light& light) {
 }
 
 std::string words(const LightPaths& paths) {
-  return fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}", paths.min_bounces,
-                     paths.max_bounces, paths.glossy_at_eye, paths.glossy_interior, paths.environment,
-                     paths.emission);
+  return fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}",
+                     paths.min_bounces, paths.max_bounces, paths.glossy_at_eye, paths.glossy_interior,
+                     paths.environment, paths.emission);
 }
 
 }  // namespace
@@ -37,11 +37,13 @@ std::string reference_key(const Session& session, const PathTracerSettings& sett
   std::string lights;
   for (const Light& light : session.lighting().lights) lights += words(light);
   return fmt::format(
-      "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} samples={} "
+      "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "
+      "samples={} "
       "batches={} estimator={} seed={}",
       reference_version, session.scene().content_hash, words(view.camera.eye), words(view.camera.target),
-      words(view.camera.up), view.camera.fov_y_degrees, view.width, view.height, lights, words(settings.paths),
-      settings.samples_per_pixel, settings.batches, to_string(settings.estimator), settings.seed);
+      words(view.camera.up), view.camera.fov_y_degrees, view.width, view.height, lights,
+      words(settings.paths), settings.samples_per_pixel, settings.batches, to_string(settings.estimator),
+      settings.seed);
 }
 
 ReferenceImages reference_images(Session& session, const PathTracerSettings& settings, StageLog& log) {

@@ -1,5 +1,5 @@
-// The path-traced reference of a comparison, kept in the artefact cache: a sweep of many method settings under one
-// lighting costs one reference.
+// The path-traced reference of a comparison, kept in the artefact cache: a sweep of many method settings
+// under one lighting costs one reference.
 #pragma once
 
 #include <string>
@@ -19,7 +19,8 @@ struct ReferenceImages {
 // Everything the images depend on, in words and exact decimal numbers.
 std::string reference_key(const Session& session, const PathTracerSettings& settings);
 
-// Traces or loads. A time limit makes the result depend on the machine's load, so such results are not stored.
+// Traces or loads. A time limit makes the result depend on the machine's load, so such results are not
+// stored.
 ReferenceImages reference_images(Session& session, const PathTracerSettings& settings, StageLog& log);
 
 // Do both sets name the same light paths?

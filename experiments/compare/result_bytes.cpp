@@ -16,8 +16,8 @@ static_assert(sizeof(glm::vec3) == 12);
 }  // namespace
 
 std::vector<std::byte> to_bytes(const PathTracerResult& result) {
-  const Head head{result.indirect.width, result.indirect.height, result.samples_per_pixel,
-                  result.batches,        result.rays,            result.non_finite};
+  const Head head{result.indirect.width, result.indirect.height, result.samples_per_pixel, result.batches,
+                  result.rays,           result.non_finite};
   const size_t image_bytes = result.indirect.pixels.size() * sizeof(glm::vec3);
   std::vector<std::byte> bytes(sizeof(Head) + 3 * image_bytes);
   std::memcpy(bytes.data(), &head, sizeof(Head));
@@ -29,7 +29,8 @@ std::vector<std::byte> to_bytes(const PathTracerResult& result) {
   return bytes;
 }
 
-std::optional<PathTracerResult> result_from_bytes(const std::vector<std::byte>& bytes, int width, int height) {
+std::optional<PathTracerResult> result_from_bytes(const std::vector<std::byte>& bytes, int width,
+                                                  int height) {
   const size_t image_bytes = static_cast<size_t>(width) * static_cast<size_t>(height) * sizeof(glm::vec3);
   if (bytes.size() != sizeof(Head) + 3 * image_bytes) return std::nullopt;
   Head head;

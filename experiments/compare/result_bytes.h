@@ -1,5 +1,5 @@
-// A path tracer's result as bytes for the artefact cache, and back. Native float format and byte order (the cache
-// never leaves the machine).
+// A path tracer's result as bytes for the artefact cache, and back. Native float format and byte order (the
+// cache never leaves the machine).
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <new>
 
+#include "common/run/error.h"
+
 namespace relight {
 
 namespace {
@@ -18,8 +20,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void require_size(const Image& image, const char* name, const View& view) {
   if (image.width != view.width || image.height != view.height) {
-    fail("the {} image has {}x{} pixels where the view has {}x{}", name, image.width, image.height, view.width,
-         view.height);
+    fail("the {} image has {}x{} pixels where the view has {}x{}", name, image.width, image.height,
+         view.width, view.height);
   }
 }
 
@@ -53,7 +55,8 @@ void relight_repeatedly(Prepared& prepared, Session& session, int wanted, Method
   // The stages shown must add up to the time shown, so they come from one relight: the (lower) median one.
   std::vector<size_t> order(logs.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return run.relight_ms[a] < run.relight_ms[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return run.relight_ms[a] < run.relight_ms[b]; });
   run.relight = logs[order[(order.size() - 1) / 2]];
 }
 
@@ -63,9 +66,9 @@ MethodRun run_method(const MethodPlan& plan, Session& session, int repeats) {
   MethodRun run;
   const char* phase = "precompute";
   try {
-    const PrepareContext context{session.scene(),        session.tracer(), session.buffer(), plan.knobs,
-                                 session.options().seed, *session.gpu(),   session.cache(),  session.progress(),
-                                 run.precompute};
+    const PrepareContext context{session.scene(), session.tracer(),       session.buffer(),
+                                 plan.knobs,      session.options().seed, *session.gpu(),
+                                 session.cache(), session.progress(),     run.precompute};
     const auto start = std::chrono::steady_clock::now();
     const auto prepared = plan.method->prepare(context);
     run.precompute_s = seconds_since(start);

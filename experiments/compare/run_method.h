@@ -1,4 +1,5 @@
-// One method on one session: precompute once, relight once to warm up, then relight `repeats` times against the clock.
+// One method on one session: precompute once, relight once to warm up, then relight `repeats` times against
+// the clock.
 #pragma once
 
 #include <string>
@@ -10,16 +11,16 @@
 namespace relight {
 
 struct MethodRun {
-  std::string failure;             // "phase: why"; empty if the method ran through
-  Relit relit;                     // of the last relight
+  std::string failure;  // "phase: why"; empty if the method ran through
+  Relit relit;          // of the last relight
   StageLog precompute;
   StageLog relight;                // of the relight with the median time
   double precompute_s = 0.0;       // wall time
   std::vector<double> relight_ms;  // wall time of each timed relight
 };
 
-// repeats = 0: five, but no more than fit into about 20 s (at least one). What the method throws, and images of the
-// wrong size, become `failure`; nothing is thrown.
+// repeats = 0: five, but no more than fit into about 20 s (at least one). What the method throws, and images
+// of the wrong size, become `failure`; nothing is thrown.
 MethodRun run_method(const MethodPlan& plan, Session& session, int repeats);
 
 }  // namespace relight

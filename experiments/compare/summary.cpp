@@ -32,8 +32,9 @@ std::string notes(const RunRecord& record) {
   }
   text += fmt::format("  not simulated: {}\n", fmt::join(record.not_simulated, "; "));
   if (const auto& cost = record.reference) {
-    text += fmt::format("  reference: {} paths a pixel, {}, {}\n", cost->samples, cost->estimator,
-                        cost->from_cache ? "from the cache" : fmt::format("traced in {:.1f} s", cost->seconds));
+    text +=
+        fmt::format("  reference: {} paths a pixel, {}, {}\n", cost->samples, cost->estimator,
+                    cost->from_cache ? "from the cache" : fmt::format("traced in {:.1f} s", cost->seconds));
   }
   for (const std::string& warning : record.warnings) text += fmt::format("  warning: {}\n", warning);
   for (const std::string& failure : record.failed_stages) text += fmt::format("  FAILED: {}\n", failure);
@@ -43,12 +44,12 @@ std::string notes(const RunRecord& record) {
 }  // namespace
 
 std::string summary_text(const std::vector<RunRecord>& records) {
-  TextTable table({"method", "relative %", "edges out %", "indirect %", "noise floor %", "precompute s", "relight ms",
-                   "MB"});
+  TextTable table({"method", "relative %", "edges out %", "indirect %", "noise floor %", "precompute s",
+                   "relight ms", "MB"});
   for (const RunRecord& r : records) {
     const bool ran = r.relight_ms.repeats > 0;
-    table.add_row({r.method + (r.failed_stages.empty() ? "" : " (FAILED)"), percent(r.errors, &MetricSet::relative),
-                   percent(r.errors, &MetricSet::relative_edges_out),
+    table.add_row({r.method + (r.failed_stages.empty() ? "" : " (FAILED)"),
+                   percent(r.errors, &MetricSet::relative), percent(r.errors, &MetricSet::relative_edges_out),
                    percent(r.errors_indirect, &MetricSet::relative), floor_percent(r.errors),
                    ran ? fmt::format("{:.2f}", r.precompute_s) : "-",
                    ran ? fmt::format("{:.1f}", r.relight_ms.median) : "-",

@@ -8,10 +8,14 @@ namespace relight {
 
 std::string type_name(const Knob& knob) {
   switch (knob.type) {
-    case KnobType::integer: return "integer";
-    case KnobType::real: return "real";
-    case KnobType::choice: return "choice";
-    case KnobType::boolean: return "boolean";
+    case KnobType::integer:
+      return "integer";
+    case KnobType::real:
+      return "real";
+    case KnobType::choice:
+      return "choice";
+    case KnobType::boolean:
+      return "boolean";
   }
   return "";
 }
@@ -29,8 +33,8 @@ std::string phase_name(const Knob& knob) {
 std::string knob_table_text(const KnobTable& table) {
   TextTable text({"knob", "type", "default", "range", "phase", "stage", "what it does"});
   for (const Knob& knob : table) {
-    text.add_row({knob.name, type_name(knob), knob.default_value, range_text(knob), phase_name(knob), knob.stage,
-                  knob.help});
+    text.add_row({knob.name, type_name(knob), knob.default_value, range_text(knob), phase_name(knob),
+                  knob.stage, knob.help});
   }
   return text.to_string();
 }

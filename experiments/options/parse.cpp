@@ -10,7 +10,7 @@ namespace relight {
 
 namespace {
 
-constexpr int max_side = 16384;   // beyond it pixel indices of the 2x2 sub-pixels leave 32 bits
+constexpr int max_side = 16384;  // beyond it pixel indices of the 2x2 sub-pixels leave 32 bits
 constexpr int max_bounces = 64;  // beyond it nothing visible is left at any albedo below 0.9
 
 std::optional<int> whole_number(const std::string& text) {
@@ -81,9 +81,13 @@ std::vector<std::string> parse_name_list(const std::string& option, const std::s
   return names;
 }
 
+void append_name(std::string& list, const std::string& name) {
+  if (!list.empty()) list += ", ";
+  list += name;
+}
+
 std::string shell_quoted(const std::string& text) {
-  const std::string plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);

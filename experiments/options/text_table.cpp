@@ -22,7 +22,8 @@ std::string TextTable::to_string(size_t right_from) const {
   for (const auto& row : rows_) {
     std::string line;
     for (size_t c = 0; c < row.size(); ++c) {
-      line += c >= right_from ? fmt::format("{:>{}}", row[c], widths[c]) : fmt::format("{:<{}}", row[c], widths[c]);
+      line += c >= right_from ? fmt::format("{:>{}}", row[c], widths[c])
+                              : fmt::format("{:<{}}", row[c], widths[c]);
       line += "  ";
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";

@@ -12,10 +12,10 @@ struct SessionOptions {
   std::string view = "640x480";  // pixels
   std::string gpu = "osmesa";    // osmesa, egl or auto
   uint64_t seed = 1;
-  int threads = 0;               // 0: all cores
+  int threads = 0;  // 0: all cores
   bool no_cache = false;
-  std::string cache_folder;      // empty: ArtefactCache::default_folder()
-  bool quiet = false;            // no progress on standard error
+  std::string cache_folder;  // empty: ArtefactCache::default_folder()
+  bool quiet = false;        // no progress on standard error
 };
 
 }  // namespace relight

@@ -5,7 +5,8 @@
 
 namespace relight {
 
-// Creates the folder if needed and writes and removes a probe file. Throws UsageError naming the option and folder.
+// Creates the folder if needed and writes and removes a probe file. Throws UsageError naming the option and
+// folder.
 void require_writable_folder(const std::string& option, const std::filesystem::path& folder);
 
 }  // namespace relight

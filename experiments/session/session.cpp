@@ -31,14 +31,14 @@ auto timed(StageLog& log, const char* stage, Function function) {
 
 std::string preset_names(const Scene& scene) {
   std::string names;
-  for (const auto& [name, lighting] : scene.lightings) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, lighting] : scene.lightings) append_name(names, name);
   return names.empty() ? "none" : names;
 }
 
 LightingState load_named_lighting(const Scene& scene, const std::string& name) {
   if (!scene.lightings.contains(name) && !std::filesystem::exists(name)) {
-    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name, scene.name,
-               preset_names(scene));
+    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name,
+               scene.name, preset_names(scene));
   }
   LightingState lighting = load_lighting(scene, name);
   validate(lighting);
@@ -55,7 +55,7 @@ Scene load_named_scene(const std::string& name) {
       std::any_of(builtins.begin(), builtins.end(), [&](const BuiltinScene& b) { return b.name == base; });
   if (!known) {
     std::string names;
-    for (const auto& builtin : builtins) names += (names.empty() ? "" : ", ") + builtin.name;
+    for (const auto& builtin : builtins) append_name(names, builtin.name);
     usage_fail("scene '{}': neither a file nor a built-in scene; valid built-in scenes: {}", name, names);
   }
   try {
@@ -73,9 +73,9 @@ std::string choose_lighting(const Scene& scene, const std::string& wanted) {
 }
 
 ArtefactCache open_cache(const SessionOptions& options) {
-  return ArtefactCache(
-      options.cache_folder.empty() ? ArtefactCache::default_folder() : std::filesystem::path(options.cache_folder),
-      !options.no_cache);
+  return ArtefactCache(options.cache_folder.empty() ? ArtefactCache::default_folder()
+                                                    : std::filesystem::path(options.cache_folder),
+                       !options.no_cache);
 }
 
 Session::Session(const SessionOptions& options, Gpu gpu)

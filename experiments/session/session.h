@@ -1,5 +1,6 @@
-// Everything one invocation works on: the scene, its lighting, the view, the ray tracer, the deep frame buffer, the
-// GPU context and the artefact cache. Loaded in an order that refuses bad input before anything slow starts.
+// Everything one invocation works on: the scene, its lighting, the view, the ray tracer, the deep frame
+// buffer, the GPU context and the artefact cache. Loaded in an order that refuses bad input before anything
+// slow starts.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,8 @@ namespace relight {
 class Session {
  public:
   enum class Gpu { needed, not_needed };
-  // Throws UsageError for an unknown scene, preset, view or GPU name; Error if a file is broken or no context opens.
+  // Throws UsageError for an unknown scene, preset, view or GPU name; Error if a file is broken or no context
+  // opens.
   Session(const SessionOptions& options, Gpu gpu);
 
   const Scene& scene() const { return scene_; }
@@ -28,8 +30,8 @@ class Session {
   const DeepFrameBuffer& buffer() const { return buffer_; }
   ArtefactCache& cache() { return cache_; }
   Progress& progress() { return progress_; }
-  gpu::Context* gpu() { return gpu_.get(); }
-  StageLog& setup() { return setup_; }  // loading, BVH, deep frame buffer
+  gpu::Context* gpu() { return gpu_.get(); }        // null if not needed
+  const StageLog& setup() const { return setup_; }  // loading, BVH, deep frame buffer
   const SessionOptions& options() const { return options_; }
 
  private:

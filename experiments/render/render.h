@@ -1,0 +1,25 @@
+// `relight render`: one method, one lighting, one picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/method_list.h"
+#include "experiments/session/options.h"
+
+namespace relight {
+
+struct RenderOptions {
+  SessionOptions session;
+  std::string method;
+  std::vector<std::string> settings;  // "method.knob=value"
+  std::string image = "total";        // direct, indirect or total
+  std::string out;                    // file ending in .exr (radiance) or .png (scene's exposure, sRGB)
+};
+
+// Renders and writes; returns a few lines about what was done. Throws UsageError before anything slow starts,
+// Error if the method fails or the image has pixels that are not finite (the file is written all the same).
+std::string render(const RenderOptions& options, const MethodList& methods);
+
+}  // namespace relight
