@@ -39,7 +39,7 @@ std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
     std::string valid;
     for (const Method* method : methods) {
       known = known || method->name() == settings.back().method;
-      valid += (valid.empty() ? "" : ", ") + method->name();
+      append_name(valid, method->name());
     }
     if (!known) {
       usage_fail("--set '{}': '{}' is not among the methods of this run; valid: {}", text,
@@ -86,7 +86,10 @@ LightPaths reference_paths(const ComparePlan& plan, const MethodPlan& method) {
 std::string command_line(const ComparePlan& plan, const std::string& lights,
                          const std::vector<MethodPlan>& methods) {
   std::string names;
-  for (const MethodPlan& method : methods) names += (names.empty() ? "" : ",") + method.method->name();
+  for (const MethodPlan& method : methods) {
+    if (!names.empty()) names += ",";
+    names += method.method->name();
+  }
   std::string command = "relight compare";
   add_option(command, "--scene", plan.session.scene);
   add_option(command, "--view", plan.session.view);

@@ -81,6 +81,11 @@ std::vector<std::string> parse_name_list(const std::string& option, const std::s
   return names;
 }
 
+void append_name(std::string& list, const std::string& name) {
+  if (!list.empty()) list += ", ";
+  list += name;
+}
+
 std::string shell_quoted(const std::string& text) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;

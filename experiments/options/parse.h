@@ -36,6 +36,9 @@ KnobSetting parse_knob_setting(const std::string& text);
 // "a,b,c" without empty parts or repetitions.
 std::vector<std::string> parse_name_list(const std::string& option, const std::string& text);
 
+// Adds a name to a list for people: "a, b, c".
+void append_name(std::string& list, const std::string& name);
+
 // `text` as one word for a POSIX shell.
 std::string shell_quoted(const std::string& text);
 

@@ -50,7 +50,7 @@ Json floor_json(const MetricSet& floor) {
           {"relative_hdr", floor.relative_hdr},
           {"rmse", floor.rmse},
           {"relmse", floor.relmse},
-          {"ssim_loss", floor.ssim}};
+          {"ssim", floor.ssim}};
 }
 
 Json description(const Session& session, const ReferenceImages& reference, const ErrorReport& report) {
