@@ -29,6 +29,11 @@ class BatchRenderer {
   BatchRenderer(const PathSampler& sampler, const RayTracer& tracer, const DeepFrameBuffer& buffer,
                 const PathTracerSettings& settings, int samples_per_batch);
 
+  // Traces some samples that count for nothing else, and from their spread chooses how many paths each tile
+  // traces per sample: as many as its standard deviation is times the mean, because that gives the least
+  // noise for the time. (Chosen from the samples themselves, it would bias the result.)
+  void plan(int samples);
+
   // Tasks a batch; progress advances by one a task.
   int tasks() const;
   // Batches must be rendered in order 0, 1, ...
@@ -44,14 +49,18 @@ class BatchRenderer {
     int64_t rays = 0, non_finite = 0;
   };
   void render_row(int row, int batch);
-  void render_tile(Tile& tile, int batch, Counts& counts);
-  void sample_tile(Tile& tile, uint64_t scramble, uint32_t index, Counts& counts) const;
+  Tile make_tile(int x0, int y0, uint64_t sequence) const;
+  int& paths_of(int x0, int y0);
+  void render_tile(int x0, int y0, int batch, Counts& counts);
+  void sample_tile(Tile& tile, uint32_t index, Counts& counts) const;
 
   const PathSampler& sampler_;
   const RayTracer& tracer_;
   const DeepFrameBuffer& buffer_;
   const PathTracerSettings& settings_;
   int samples_;
+  int tiles_x_, tiles_y_;
+  std::vector<int> paths_;  // a tile: paths from each visible point for each set of light vertices
   std::vector<PixelStatistics> pixels_;
   std::atomic<int64_t> rays_{0}, non_finite_{0};
 };

@@ -41,7 +41,7 @@ glm::vec3 LightConnector::unshadowed(const EyeVertex& x, const LightVertex& y, f
       reflected * shader::brdf_eval(y.brdf, y.surface.shading_normal, -w, y.to_light) * y.irradiance;
   const float brdf =
       brdf_pdf(x.brdf, x.surface->shading_normal, x.wo, w, false) * lights_.next_event_probability(y.light);
-  return value * (1.0f / (brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y)));
+  return value * (1.0f / (x.paths * brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y)));
 }
 
 glm::vec3 LightConnector::connect(const EyeVertex& x, const LightVertex& y, float count,

@@ -31,7 +31,7 @@ class LightConnector {
   // The first surface hit by a ray from a light; invalid if there is none.
   LightVertex trace(const PathRandom& random, int64_t& rays) const;
 
-  // Light reaching the eye by x - y - light, divided by the sum of densities p_b + count p_l, where `count`
+  // Light reaching the eye by x - y - light, divided by the sum of densities m p_b + count p_l, where `count`
   // light vertices are connected to x.
   glm::vec3 connect(const EyeVertex& x, const LightVertex& y, float count, int64_t& rays) const;
   // Adds the same for each vertex of a tile to sums[0..15].

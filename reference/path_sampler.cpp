@@ -28,7 +28,7 @@ PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, co
       sampled_sources_(paths.emission || (paths.environment && !tracer.scene().environment.black())) {}
 
 // Strategy "brdf": light reflected by y (found from `distance` away with density `density`) from one light,
-// with the weight of the balance heuristic against `connections` light vertices.
+// with the weight of the balance heuristic against `connections` light vertices for each such sample.
 glm::vec3 PathSampler::from_light(const EyeVertex& y, size_t light, float distance, float density,
                                   float connections, int64_t& rays) const {
   const SurfaceSample& s = *y.surface;
@@ -103,7 +103,7 @@ glm::vec3 PathSampler::sample(const EyeVertex& x1, const LightVertex& light, con
     current = tracer_.surface(hit, bounce.wi);
     x = {&current, allowed_brdf(current, paths_, false), -bounce.wi};
     if (paths_.emission && emitter_counts) sum += throughput * current.emission;
-    const float connections = k == 1 ? static_cast<float>(connections_at_eye) : 1.0f;
+    const float connections = k == 1 ? static_cast<float>(connections_at_eye) / x1.paths : 1.0f;
     if (counts) sum += throughput * next_event(x, hit.t, bounce.pdf, connections, choice.y, rays);
   }
   return sum;

@@ -4,11 +4,11 @@
 // first surface in that direction and E_l its irradiance from point light l. Two ways of finding y are
 // combined with the balance heuristic (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte
 // Carlo Rendering", 1995), both densities taken over directions w at x:
-//   brdf:  w from x's BRDF, y by a ray, then next-event estimation (one sample, density p_b)
+//   brdf:  w from x's BRDF, y by a ray, then next-event estimation (m samples, density p_b)
 //   light: y by a ray from the light, then a connection to x (n samples, density
 //          p_l = emission pdf cos_l/r^2 d^2/cos_y).
-// Each sample of either contributes F / (p_b + n p_l). Near corners p_b bounds it, in a spot's lit patch p_l
-// does.
+// The sum of F / (m p_b + n p_l) over all m + n samples is the estimate. Near corners p_b bounds it, in a
+// spot's lit patch p_l does.
 #pragma once
 
 #include "reference/light_connection.h"

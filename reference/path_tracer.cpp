@@ -11,6 +11,9 @@ namespace relight {
 
 namespace {
 
+// A sixteenth of the samples at most, and enough: a tile has 16 pixels.
+constexpr int planning_samples = 8, least_samples_for_planning = 128;
+
 void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   const int least = settings.one_sequence ? 1 : 2;
   if (settings.batches < least)
@@ -64,6 +67,8 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   const PathSampler sampler(tracer, lights, settings.paths, settings.estimator);
   BatchRenderer renderer(sampler, tracer, buffer, settings, per_batch);
   progress.start("path tracing", static_cast<int64_t>(settings.batches) * renderer.tasks());
+  const bool adaptive = settings.estimator == Estimator::light_vertex && !settings.one_sequence;
+  if (adaptive && settings.samples_per_pixel >= least_samples_for_planning) renderer.plan(planning_samples);
   double longest_batch = 0.0;
   for (int batch = 0; batch < settings.batches; ++batch) {
     const double before = elapsed();

@@ -32,6 +32,7 @@ struct EyeVertex {
   const SurfaceSample* surface = nullptr;
   shader::BrdfParams brdf;  // allowed lobes only
   glm::vec3 wo;             // towards the previous vertex
+  float paths = 1.0f;  // BRDF samples taken here for each set of light vertices: m of the balance heuristic
 
   // f cos for light from w; 0 from behind either normal.
   glm::vec3 reflect(const glm::vec3& w) const {
