@@ -115,17 +115,10 @@ void add_storey(MeshBuilder& mesh, const Palette& palette, double floor, double 
   for (const double side : {-1.0, 1.0}) {
     mesh.object("arcade", palette.stone);
     modelling::arcade(mesh, turned({0, 0, side * court_z}),
-                      {2 * court_x, thickness, spring, top, arch, 6, segments});
+                      {2 * court_x + thickness, thickness, spring, top, arch, 6, segments, 0.5 * thickness});
     mesh.object("arcade", palette.stone);
     modelling::arcade(mesh, turned({side * court_x, 0, 0}, 90.0),
                       {2 * court_z - thickness, thickness, spring, top, arch - 0.2, 2, segments});
-    mesh.object("corner", palette.stone);
-    for (const double end : {-1.0, 1.0}) {
-      const glm::dvec3 c(side * court_x, 0, end * court_z);
-      const double inner = 0.0, outer = 0.35;
-      mesh.box(turned(c), {side < 0 ? -outer : inner, spring, -outer},
-               {side < 0 ? inner : outer, top, outer});
-    }
   }
 }
 

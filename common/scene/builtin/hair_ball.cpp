@@ -77,7 +77,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.94f, 0.84f);
   add_lighting(scene, "spot", {spot_light({-2.2f, 4.6f, 2.4f}, {0, 1.3f, 0}, 170.0f * warm, 24.0f, 30.0f)});
-  add_lighting(scene, "omni", {omni_light({-2.0f, 3.8f, 2.2f}, 20.0f * warm)});
+  add_lighting(scene, "omni", {omni_light({-2.0f, 3.8f, 2.2f}, 45.0f * warm)});
 }
 
 }  // namespace

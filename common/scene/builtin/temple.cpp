@@ -177,7 +177,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.triangles.reserve(static_cast<size_t>(2.3e6 * detail * detail));
   add_ground_and_steps(mesh, palette);
   // A multiple of the 20 flutes, so that every arris lies on a vertex.
-  add_columns(mesh, palette, 40 * count(6, 2), count(84, 4));
+  add_columns(mesh, palette, 40 * count(6, 2), count(77, 4));
   add_ring(mesh, "architrave", palette.marble, 0.45, 0.45, architrave, frieze);
   add_ring(mesh, "frieze", palette.red, 0.5, 0.5, frieze, cornice);
   add_ring(mesh, "cornice", palette.marble, 0.9, 0.5, cornice, eaves);
@@ -191,7 +191,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.93f, 0.82f);
   add_lighting(scene, "spot",
-               {spot_light({-2.0f, 6.3f, 0.1f}, {-1.6f, 0.0f, -0.3f}, 2000.0f * warm, 18.0f, 20.0f)});
+               {spot_light({-2.0f, 6.3f, 0.1f}, {-1.6f, 0.0f, -0.3f}, 2600.0f * warm, 18.0f, 20.0f)});
   add_lighting(scene, "omni", {omni_light({-3.0f, 4.6f, 0.0f}, 30.0f * warm)});
 }
 

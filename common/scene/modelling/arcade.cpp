@@ -15,10 +15,10 @@ struct EdgePoint {
 
 std::vector<EdgePoint> lower_edge(const Arcade& shape) {
   const glm::dvec2 down(0.0, -1.0);
-  const double bay = shape.length / shape.bays;
+  const double bay = (shape.length - 2.0 * shape.end) / shape.bays;
   std::vector<EdgePoint> edge = {{{-0.5 * shape.length, shape.spring}, down, down}};
   for (int b = 0; b < shape.bays; ++b) {
-    const double centre = -0.5 * shape.length + (b + 0.5) * bay;
+    const double centre = -0.5 * shape.length + shape.end + (b + 0.5) * bay;
     for (int i = 0; i <= shape.segments; ++i) {
       const double a = std::numbers::pi * (1.0 - double(i) / shape.segments);
       const bool end = i == 0 || i == shape.segments;

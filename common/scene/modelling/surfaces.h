@@ -34,10 +34,12 @@ void tube(MeshBuilder& mesh, const std::vector<glm::dvec3>& curve, double radius
           int sides);
 
 // Wall along the frame's x axis from -length/2 to length/2, thickness along z, from y = spring to y = top,
-// with `bays` round arches of radius `radius` cut out from below. Closed.
+// with `bays` round arches of radius `radius` cut out from below, and `end` of plain wall at both ends.
+// Closed.
 struct Arcade {
   double length, thickness, spring, top, radius;
   int bays, segments;
+  double end = 0.0;
 };
 void arcade(MeshBuilder& mesh, const Frame& frame, const Arcade& shape);
 
