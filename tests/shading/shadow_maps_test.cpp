@@ -1,12 +1,11 @@
 // Shadow maps against traced shadows, away from shadow edges as shadow_edges.h defines them.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "common/sampling/deep_frame_buffer.h"
 #include "common/scene/scene_file.h"
 #include "tests/shading/shading_fixture.h"
 #include "tests/shading/shadow_edges.h"
+#include "tests/support/tiny_scenes.h"
 
 namespace relight {
 namespace {
@@ -127,6 +126,45 @@ TEST(Shadows, DoNotDependOnScaleAndPlace) {
         agreement(tracer, samples, spot_light(place({-1.5f, 1.5f, 1.5f}), {1, -1.2f, -1}, 40.0f), 512), 1,
         0.7);
   }
+}
+
+// Red without the slope bias: within half a texel of a concave edge the map holds the other wall. An empty
+// room seen from inside has no shadow at all, however coarse the map.
+TEST(Shadows, AnEmptyRoomHasNone) {
+  Scene scene = tiny::empty_scene();
+  tiny::add_box(scene, {-2, -1, -2}, {2, 2, 2});
+  finish_scene(scene);
+  const RayTracer tracer(scene);
+  const std::vector<SurfaceSample> samples = test::random_samples(tracer, 40000);
+  const auto context = gpu::Context::create("osmesa");
+  for (const int size : {32, 512}) {
+    DirectLighting shading(*context, scene, tracer, {Shadows::map, size});
+    for (const Light& light :
+         {omni_light({0.7f, 0.9f, -1.1f}), spot_light({0.7f, 0.9f, -1.1f}, {-1, -1, 0.8f}, 55.0f)}) {
+      StageLog log;
+      const auto mapped = test::shade(shading, samples, {}, {"one", {light}}, Lobes::diffuse, log);
+      const auto truth = shade_direct_cpu(tracer, samples, {}, {"one", {light}}, Lobes::diffuse);
+      size_t dark = 0;
+      for (size_t i = 0; i < samples.size(); ++i) {
+        dark += mapped[i] == glm::vec3(0.0f) && truth[i] != glm::vec3(0.0f);
+      }
+      EXPECT_EQ(dark, 0u) << size << ' ' << light.name;
+    }
+  }
+}
+
+// Red if the comparison ignores that depths from a far light are rounded to its distance, not to the scene's
+// size.
+TEST(Shadows, ALightFarOutsideTheSceneLeavesNoAcne) {
+  Scene scene = tiny::empty_scene();
+  tiny::add_quad(scene, {-0.5f, -0.1f, -0.5f}, {0.03f, 0.02f, 1}, {1, 0.2f, 0.01f});
+  finish_scene(scene);
+  const RayTracer tracer(scene);
+  std::vector<SurfaceSample> samples = test::random_samples(tracer, 20000);
+  const Agreement a =
+      agreement(tracer, samples, spot_light({300, 1000, 200}, {-300, -1000, -200}, 0.06f), 2048);
+  EXPECT_EQ(a.false_shadow, 0.0);
+  EXPECT_GT(a.lit, 9000u);
 }
 
 // Red on shapes the room has not: fluted columns, arches, coarse and fine triangles together.
