@@ -44,9 +44,25 @@ TEST(LightSampler, DensitiesIntegrateToTheProbabilityOfTheLight) {
   EXPECT_NEAR(static_cast<double>(sampler.emission_pdf(0)) * 4.0 * M_PI +
                   static_cast<double>(sampler.emission_pdf(1)) * cone,
               1.0, 1e-5);
-  EXPECT_NEAR(sampler.probability(0) + sampler.probability(1), 1.0f, 1e-6f);
-  // Power: intensity x solid angle.
-  EXPECT_NEAR(sampler.probability(1) / sampler.probability(0), 5.0 * cone / (4.0 * M_PI), 1e-4);
+}
+
+// Red if: lights beyond the few that are all sampled aren't chosen by power, or the probability isn't that of
+// choose().
+TEST(LightSampler, ChoosesAmongManyLightsByPower) {
+  const LightingState few = lighting({omni({0, 0, 0}), omni({0, 0, 1})});
+  EXPECT_TRUE(LightSampler(few).all());
+  EXPECT_EQ(LightSampler(few).next_event_probability(1), 1.0f);
+  LightingState many = few;
+  for (int i = 0; i < 3; ++i) many.lights.push_back(spot({0, 0, 0}, {0, 0, 1}, 20, 30, glm::vec3(5.0f)));
+  const LightSampler sampler(many);
+  ASSERT_FALSE(sampler.all());
+  const double cone = 2.0 * M_PI * (1.0 - std::cos(glm::radians(30.0)));
+  EXPECT_NEAR(sampler.next_event_probability(3) / sampler.next_event_probability(0),
+              5.0 * cone / (4.0 * M_PI), 1e-4);
+  int count[5] = {};
+  for (int i = 0; i < 10000; ++i) ++count[sampler.choose((static_cast<float>(i) + 0.5f) / 10000.0f)];
+  for (size_t light = 0; light < 5; ++light)
+    EXPECT_NEAR(count[light], 1e4f * sampler.next_event_probability(light), 2);
 }
 
 // Red if: a light of no power or without shadows is chosen where it mustn't be, at the ends of [0,1) too.

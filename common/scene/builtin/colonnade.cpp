@@ -165,9 +165,9 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.95f, 0.85f);
   add_lighting(scene, "spot",
-               {spot_light({1.5f, 14.0f, 0.5f}, {2.5f, 0.0f, -0.5f}, 4000.0f * warm, 18.0f, 20.0f)});
+               {spot_light({1.5f, 14.0f, 0.5f}, {2.5f, 0.0f, -0.5f}, 5500.0f * warm, 18.0f, 20.0f)});
   add_lighting(scene, "spot2",
-               {spot_light({6.0f, 14.5f, -1.0f}, {1.0f, 0.0f, 3.0f}, 4000.0f * warm, 18.0f, 20.0f)});
+               {spot_light({6.0f, 14.5f, -1.0f}, {1.0f, 0.0f, 3.0f}, 5500.0f * warm, 18.0f, 20.0f)});
   add_lighting(scene, "omni", {omni_light({3.0f, 6.0f, 0.5f}, 150.0f * warm)});
 }
 

@@ -51,7 +51,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   add_lighting(scene, "omni", {omni_light({0.0f, 1.75f, 0.2f}, glm::vec3(1.3f, 1.2f, 1.05f))});
   add_lighting(
       scene, "spot",
-      {spot_light({0.1f, 1.9f, 0.1f}, {0.75f, 0.0f, -0.55f}, glm::vec3(11.0f, 10.2f, 9.0f), 18.0f, 20.0f)});
+      {spot_light({0.0f, 1.9f, 0.3f}, {-0.45f, 0.0f, 0.6f}, glm::vec3(40.0f, 37.0f, 32.0f), 18.0f, 20.0f)});
   // 0.03 from two walls and the floor: 1/r^2 reaches 1100 there.
   add_lighting(scene, "near", {omni_light({0.97f, 0.03f, -0.97f}, glm::vec3(0.25f, 0.24f, 0.22f))});
 }

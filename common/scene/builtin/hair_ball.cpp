@@ -76,7 +76,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.camera = Camera{{0.6f, 2.1f, 5.2f}, {0, 1.5f, 0}, {0, 1, 0}, 40.0f};
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.94f, 0.84f);
-  add_lighting(scene, "spot", {spot_light({-2.2f, 4.6f, 2.4f}, {0, 1.3f, 0}, 60.0f * warm, 16.0f, 22.0f)});
+  add_lighting(scene, "spot", {spot_light({-2.2f, 4.6f, 2.4f}, {0, 1.3f, 0}, 170.0f * warm, 24.0f, 30.0f)});
   add_lighting(scene, "omni", {omni_light({-2.0f, 3.8f, 2.2f}, 20.0f * warm)});
 }
 

@@ -164,7 +164,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.93f, 0.82f);
   add_lighting(scene, "spot",
-               {spot_light({-1.3f, 2.7f, 1.2f}, {0.2f, 0.8f, -0.3f}, 22.0f * warm, 14.0f, 20.0f)});
+               {spot_light({-1.3f, 2.7f, 1.2f}, {0.2f, 0.8f, -0.3f}, 36.0f * warm, 26.0f, 32.0f)});
   add_lighting(scene, "omni", {omni_light({-1.1f, 2.3f, 1.1f}, 6.0f * warm)});
   add_lighting(scene, "two",
                {omni_light({-1.4f, 2.4f, 0.8f}, 4.0f * warm),

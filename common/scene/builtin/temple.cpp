@@ -42,8 +42,9 @@ double doric_flute(double angle, double) {
   return 1.0 - 0.055 * std::sin(std::numbers::pi * phase);
 }
 
-void add_column(MeshBuilder& mesh, const Palette& palette, const glm::dvec3& foot, int sides, int rows) {
-  const double r = column_radius, shaft = column_height - 0.62;
+void add_column(MeshBuilder& mesh, const Palette& palette, const glm::dvec3& foot, double r, int sides,
+                int rows) {
+  const double shaft = column_height - 0.62;
   Profile profile;
   for (int j = 0; j <= rows; ++j) {
     const double t = double(j) / rows;
@@ -66,8 +67,12 @@ void add_columns(MeshBuilder& mesh, const Palette& palette, int sides, int rows)
   for (int k = 0; k < columns_z; ++k)
     for (int i = 0; i < columns_x; ++i) {
       if (i > 0 && i + 1 < columns_x && k > 0 && k + 1 < columns_z) continue;
-      add_column(mesh, palette, {-half_x + i * spacing, 0.0, -half_z + k * spacing}, sides, rows);
+      add_column(mesh, palette, {-half_x + i * spacing, 0.0, -half_z + k * spacing}, column_radius, sides,
+                 rows);
     }
+  // Two rows of slighter columns in the cella.
+  for (const double z : {-1.7, 1.7})
+    for (int i = 0; i < 7; ++i) add_column(mesh, palette, {-8.4 + 2.8 * i, 0.0, z}, 0.3, sides / 2, rows / 2);
 }
 
 // Rectangular ring of beams over the columns: outer and inner half extents about the column axes.
@@ -172,7 +177,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   scene.triangles.reserve(static_cast<size_t>(2.3e6 * detail * detail));
   add_ground_and_steps(mesh, palette);
   // A multiple of the 20 flutes, so that every arris lies on a vertex.
-  add_columns(mesh, palette, 20 * count(12, 2), count(88, 4));
+  add_columns(mesh, palette, 40 * count(6, 2), count(84, 4));
   add_ring(mesh, "architrave", palette.marble, 0.45, 0.45, architrave, frieze);
   add_ring(mesh, "frieze", palette.red, 0.5, 0.5, frieze, cornice);
   add_ring(mesh, "cornice", palette.marble, 0.9, 0.5, cornice, eaves);
@@ -181,13 +186,13 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
   add_pediment(mesh, palette.blue, half_x - 0.2, half_x + 0.5);
   add_roof(mesh, palette, count(260, 16));
   add_cella(mesh, palette, count(340, 16), parameters.seed());
-  const float z = static_cast<float>(half_z - 1.25);
-  scene.camera = Camera{{13.2f, 1.9f, z + 0.35f}, {-4.0f, 2.9f, z - 0.5f}, {0, 1, 0}, 58.0f};
+  // From the depth of the cella towards the front columns, at eye height beside an inner row.
+  scene.camera = Camera{{-10.9f, 1.9f, 0.6f}, {6.0f, 2.7f, -0.7f}, {0, 1, 0}, 70.0f};
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.93f, 0.82f);
   add_lighting(scene, "spot",
-               {spot_light({12.0f, 6.2f, z}, {5.5f, 0.0f, z - 0.3f}, 260.0f * warm, 18.0f, 20.0f)});
-  add_lighting(scene, "omni", {omni_light({5.0f, 4.2f, z}, 30.0f * warm)});
+               {spot_light({-2.0f, 6.3f, 0.1f}, {-1.6f, 0.0f, -0.3f}, 2000.0f * warm, 18.0f, 20.0f)});
+  add_lighting(scene, "omni", {omni_light({-3.0f, 4.6f, 0.0f}, 30.0f * warm)});
 }
 
 }  // namespace

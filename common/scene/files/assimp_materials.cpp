@@ -23,8 +23,7 @@ void read(const aiMaterial& material, const char* key, unsigned type, unsigned i
 }
 
 bool is_gltf(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
-  return ending.size() >= 3 && (ending[1] == 'g' || ending[1] == 'G');
+  return has_ending(file, ".gltf") || has_ending(file, ".glb");
 }
 
 FileMaterial read_material(const aiMaterial& source, const std::filesystem::path& file) {
@@ -54,6 +53,11 @@ int AssimpMaterials::index(unsigned assimp_index) {
 }
 
 int AssimpMaterials::convert(const aiMaterial& source) {
+  // PLY has no materials; what assimp makes up for it is glossy and brighter than light.
+  if (has_ending(file_, ".ply")) {
+    scene_.materials.emplace_back();
+    return static_cast<int>(scene_.materials.size() - 1);
+  }
   FileMaterial file_material = read_material(source, file_);
   if (lets_light_straight_through(file_material)) return clear_glass;
   if (file_material.opacity < 1.0f) ++scene_.repairs.counts["translucent_materials_made_opaque"];

@@ -11,6 +11,7 @@
 
 #include "common/run/error.h"
 #include "common/scene/files/assimp_materials.h"
+#include "common/scene/files/ply_check.h"
 
 namespace relight {
 
@@ -23,6 +24,11 @@ class WarningStream : public Assimp::LogStream {
   void write(const char* message) override {
     std::string line(message);
     while (!line.empty() && line.back() == '\n') line.pop_back();
+    // illum 7 marks glass, which is read from d.
+    if (line.find("unexpected illumination model") != std::string::npos) return;
+    if (line.find("No object detected") != std::string::npos) return;  // an OBJ without "o" or "g" is fine
+    // "Error, T0: OBJ: ..." says nothing more than the rest of the line.
+    if (const size_t colon = line.find(": "); colon != std::string::npos) line.erase(0, colon + 2);
     if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
   }
 
@@ -129,23 +135,25 @@ class MeshAppender {
   AssimpMaterials materials_;
 };
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 }  // namespace
 
+bool has_ending(const std::filesystem::path& file, const std::string& ending) {
+  std::string own = file.extension().string();
+  for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return own == ending;
+}
+
 bool is_mesh_file_name(const std::filesystem::path& file) {
-  const std::string ending = lower_ending(file);
-  return ending == ".obj" || ending == ".gltf" || ending == ".glb" || ending == ".ply";
+  for (const char* ending : {".obj", ".gltf", ".glb", ".ply"})
+    if (has_ending(file, ending)) return true;
+  return false;
 }
 
 void append_mesh_file(Scene& scene, const std::filesystem::path& file, const MeshFileOptions& options) {
   if (!is_mesh_file_name(file))
     fail("{}: not a mesh file; valid endings: .obj, .gltf, .glb, .ply", file.string());
   if (!std::filesystem::is_regular_file(file)) fail("{}: no such mesh file", file.string());
+  if (has_ending(file, ".ply")) require_complete_ply(file);
   Assimp::Importer importer;
   std::vector<std::string> log;
   const aiScene* source = nullptr;

@@ -21,5 +21,7 @@ void append_mesh_file(Scene& scene, const std::filesystem::path& file, const Mes
 
 // True if the file name's ending is one that append_mesh_file reads (.obj, .gltf, .glb, .ply, any case).
 bool is_mesh_file_name(const std::filesystem::path& file);
+// Case-insensitive; ending in lower case with its dot.
+bool has_ending(const std::filesystem::path& file, const std::string& ending);
 
 }  // namespace relight

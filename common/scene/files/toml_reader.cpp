@@ -24,7 +24,9 @@ struct TomlTable::State {
     return table->get(key);
   }
   std::string at(const toml::node& node, const std::string& key) const {
-    return fmt::format("{}:{}: {}{}", file.string(), node.source().begin.line, path, key);
+    std::string field = path + key;
+    if (key.empty() && !field.empty()) field.pop_back();  // the table itself, without its dot
+    return fmt::format("{}:{}: {}", file.string(), node.source().begin.line, field);
   }
 };
 
@@ -167,7 +169,7 @@ std::vector<std::string> TomlTable::keys() const {
 }
 
 void TomlTable::require(const std::string& key) const {
-  if (!has(key)) fail("{}{} is missing", where(), key);
+  if (!has(key)) fail("{}: '{}' is missing", where(), key);
 }
 
 void TomlTable::refuse_unknown_keys() const {
