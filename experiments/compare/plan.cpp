@@ -7,7 +7,6 @@ namespace relight {
 
 namespace {
 
-constexpr int max_samples = 1 << 24;  // stratified indices and float sums are exact up to here
 constexpr int max_repeats = 10000;
 
 void add_option(std::string& command, const std::string& option, const std::string& value) {
@@ -60,9 +59,7 @@ ComparePlan make_plan(const CompareOptions& options, const MethodList& methods) 
   for (const Method* method : chosen) plan.methods.push_back(plan_method(*method, settings));
   parse_view(options.session.view);
   if (!options.bounces.empty()) plan.bounces = parse_bounces(options.bounces);
-  if (options.reference_samples < 2 || options.reference_samples > max_samples) {
-    usage_fail("--reference-samples {}: expected 2 to {}", options.reference_samples, max_samples);
-  }
+  require_samples("--reference-samples", options.reference_samples);
   if (options.repeats < 0 || options.repeats > max_repeats) {
     usage_fail("--repeats {}: expected 0 (chosen by duration) to {}", options.repeats, max_repeats);
   }

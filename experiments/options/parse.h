@@ -27,6 +27,9 @@ std::string to_string(const BounceRange& range);
 Estimator parse_estimator(const std::string& text);
 std::string to_string(Estimator estimator);
 
+// Samples a pixel for a path-traced reference: at least one for each of its batches, at most 2^24.
+void require_samples(const std::string& option, int samples);
+
 struct KnobSetting {
   std::string method, knob, value;
 };

@@ -28,7 +28,7 @@ figcaption { font-size:13px; padding-top:3px; }
   background:#ffebe9; border-radius:3px; }
 .bar { align-self:center; max-width:360px; padding:0 12px; } .bar p { font-size:12.5px; color:var(--soft); margin:4px 0 0; }
 svg text { font-size:12px; fill:var(--ink); } .bar svg text { font-size:13px; }
-.charts { display:flex; flex-wrap:wrap; gap:20px 36px; } .chart { flex:0 1 430px; }
+.charts { display:flex; flex-wrap:wrap; gap:20px 36px; } .chart { flex:0 1 410px; }
 rect.setup { fill:#8c959f; } rect.precompute { fill:#0a5f8a; } rect.relight { fill:#d1802b; }
 pre { background:var(--shade); border:1px solid var(--line); border-radius:6px; padding:10px 12px; font-size:12.5px;
   white-space:pre-wrap; overflow-wrap:anywhere; }

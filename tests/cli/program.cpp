@@ -23,8 +23,9 @@ TemporaryFolder::~TemporaryFolder() {
 
 ProgramResult run_program(const std::string& arguments, const std::string& prefix) {
   const TemporaryFolder folder;
-  const std::string command =
-      prefix + "'" RELIGHT_PROGRAM "' " + arguments + " >'" + folder / "out" + "' 2>'" + folder / "err" + "'";
+  // A program that hangs is killed and fails the test (exit code 124) rather than the whole suite.
+  const std::string command = prefix + "timeout 300 '" RELIGHT_PROGRAM "' " + arguments + " >'" +
+                              folder / "out" + "' 2>'" + folder / "err" + "'";
   const int status = std::system(command.c_str());
   ProgramResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

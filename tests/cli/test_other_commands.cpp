@@ -116,7 +116,7 @@ TEST(ReferenceCommand, WritesImagesAndANoiseFloorThatFallsWithSamples) {
 TEST(ReferenceCommand, LeavesNothingHalfWrittenOnAFullDisk) {
   TemporaryFolder folder;
   const ProgramResult result = run_program(
-      "reference --scene cornell --lights spot --view 96x72 --quiet --no-cache --samples 2 --out " +
+      "reference --scene cornell --lights spot --view 96x72 --quiet --no-cache --samples 8 --out " +
           folder / "out",
       "trap '' XFSZ; ulimit -f 4; ");
   EXPECT_EQ(result.exit_code, 1) << result.out;

@@ -73,7 +73,7 @@ TEST(UsageErrors, BadNumbersAreRefusedByName) {
       "compare --scene cornell --methods path_tracing --lights spot --out " + folder / "out";
   expect_usage_error(start + " --view 640", {"--view", "640x480"});
   expect_usage_error(start + " --bounces 3..1", {"--bounces"});
-  expect_usage_error(start + " --reference-samples 0", {"--reference-samples"});
+  expect_usage_error(start + " --reference-samples 7", {"--reference-samples", "8"});
   expect_usage_error(start + " --reference-estimator x", {"next_event", "light_vertex"});
   expect_usage_error(start + " --repeats -1", {"--repeats"});
   expect_usage_error(start + " --threads -2", {"--threads"});
