@@ -49,8 +49,12 @@ TEST(TriangleFaults, DoNotDependOnTheScaleOrTheDistanceFromTheOrigin) {
 
 // Red if exact collinearity off the axes is missed because the rounded cross product is not zero.
 TEST(TriangleFaults, FindCollinearCornersExactly) {
-  const std::vector<glm::vec3> positions = {
-      {0.1f, 0.2f, 0.3f}, {0.2f, 0.4f, 0.6f}, {0.4f, 0.8f, 1.2f}, {0.4f, 0.8f, 1.3f}};
+  // v, 3 v and 2^20 v are exact in single precision, their differences are not.
+  const glm::vec3 v(1398101.0f, 2097143.0f, 3000001.0f);
+  const std::vector<glm::vec3> positions = {v, 3.0f * v, 1048576.0f * v,
+                                            1048576.0f * glm::vec3(v.x, v.z, v.y)};
+  const glm::vec3 rounded = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
+  ASSERT_NE(rounded, glm::vec3(0.0f)) << "the example no longer shows the difference";
   const std::vector<Triangle> triangles = {{{0, 1, 2}, 0, 0}, {{0, 1, 3}, 0, 0}, {{0, 0, 3}, 0, 0}};
   const auto faults = find_triangle_faults(positions, triangles);
   EXPECT_EQ(faults[0], TriangleFault::zero_area);

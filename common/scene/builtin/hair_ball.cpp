@@ -85,7 +85,7 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
 BuiltinGenerator hair_ball_scene() {
   return {{"hair_ball",
            "ball of curved thin tubes in a simple room (about 320 k triangles)",
-           {{"strands", 3050, 1, 100000, "number of tubes"},
+           {{"strands", 2970, 1, 100000, "number of tubes"},
             {"segments", 10, 2, 256, "segments along a tube"},
             {"sides", 5, 3, 32, "sides of a tube"},
             {"thickness", 0.006, 0.0005, 0.05, "radius of a tube at its root [scene units]"},

@@ -9,7 +9,7 @@ namespace relight {
 
 struct MeshFileOptions {
   glm::mat4 transform{1.0f};  // from file coordinates to scene coordinates
-  bool srgb_colours = false;  // material colours (not textures) are sRGB-encoded numbers
+  bool srgb_colours = false;  // diffuse colours (not textures, not Ks) are sRGB-encoded numbers
   std::string object_prefix;  // put before each object's name
 };
 
