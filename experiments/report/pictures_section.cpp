@@ -57,7 +57,8 @@ std::string missing(const std::string& caption, const RunRecord& record) {
 // sRGB (IEC 61966-2-1) of a linear colour.
 std::string css_colour(const glm::vec3& linear) {
   const auto code = [](float c) {
-    const double s = c <= 0.0031308f ? 12.92 * c : 1.055 * std::pow(static_cast<double>(c), 1.0 / 2.4) - 0.055;
+    const double s =
+        c <= 0.0031308f ? 12.92 * c : 1.055 * std::pow(static_cast<double>(c), 1.0 / 2.4) - 0.055;
     return std::lround(255.0 * std::clamp(s, 0.0, 1.0));
   };
   return fmt::format("rgb({},{},{})", code(linear.x), code(linear.y), code(linear.z));
@@ -72,12 +73,18 @@ std::string colour_bar(double full_scale) {
                           step_width + 1, css_colour(false_colour((i + 0.5) / steps)));
   }
   for (int i = 0; i <= 2; ++i) {
-    shapes += fmt::format("<text x='{}' y='44' text-anchor='{}'>{:.3g}</text>", left + steps * step_width * i / 2,
-                          i == 0 ? "start" : i == 1 ? "middle" : "end", full_scale * i / 2.0);
+    shapes +=
+        fmt::format("<text x='{}' y='44' text-anchor='{}'>{:.3g}</text>", left + steps * step_width * i / 2,
+                    i == 0   ? "start"
+                    : i == 1 ? "middle"
+                             : "end",
+                    full_scale * i / 2.0);
   }
   return fmt::format(
-      "<div class=bar><svg viewBox='0 0 320 50' role=img aria-label='colour bar'>{}</svg><p>Absolute difference after "
-      "exposure, mean of the channels; one scale for every difference on this page (99&#8239;% of the pixels of the "
+      "<div class=bar><svg viewBox='0 0 320 50' role=img aria-label='colour bar'>{}</svg><p>Absolute "
+      "difference after "
+      "exposure, mean of the channels; one scale for every difference on this page (99&#8239;% of the pixels "
+      "of the "
       "worst picture lie below its end). Magenta: not a number.</p></div>",
       shapes);
 }
