@@ -1,6 +1,7 @@
 // The list of methods: to add one, include its header and add its make function here.
 #include "experiments/method_list.h"
 
+#include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "reference/path_tracing_method.h"
@@ -18,7 +19,7 @@ const Method& find_method(const MethodList& methods, const std::string& name) {
   std::string valid;
   for (const auto& method : methods) {
     if (method->name() == name) return *method;
-    valid += (valid.empty() ? "" : ", ") + method->name();
+    append_name(valid, method->name());
   }
   usage_fail("unknown method '{}'; valid: {}", name, valid);
 }

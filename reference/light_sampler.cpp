@@ -52,7 +52,7 @@ size_t LightSampler::choose(float u) const {
 }
 
 LightRay LightSampler::emit(float u_light, const glm::vec2& u) const {
-  if (lights_.empty() || !(lights_.back().emission_cumulative > 0.0)) return {};
+  if (!emits()) return {};
   LightRay ray;
   ray.light = find(lights_, u_light, [](const Entry& entry) { return entry.emission_cumulative; });
   const Entry& entry = lights_[ray.light];

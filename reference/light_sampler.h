@@ -24,17 +24,21 @@ class LightSampler {
   glm::vec3 position(size_t light) const { return glm::vec3(lights_[light].params.position_type); }
   bool casts_shadows(size_t light) const { return lights_[light].casts_shadows; }
 
-  // Light chosen for next-event estimation with u in [0,1), in proportion to its power.
+  // Next-event estimation goes to every light if there are few, else to one chosen by power with u in [0,1).
+  bool all() const { return lights_.size() <= most_lights_for_all; }
   size_t choose(float u) const;
-  float probability(size_t light) const { return lights_[light].probability; }
+  // With which next-event estimation takes `light`: 1 if it takes all.
+  float next_event_probability(size_t light) const { return all() ? 1.0f : lights_[light].probability; }
 
   // Emission: an omni light uniformly over the sphere, a spot uniformly over its outer cone. Lights without
   // shadows are left out, because light rays stop at the first surface and theirs don't.
+  bool emits() const { return !lights_.empty() && lights_.back().emission_cumulative > 0.0; }
   LightRay emit(float u_light, const glm::vec2& u) const;
   // The directional_pdf with which emit() leaves `light` in a direction where its intensity isn't zero.
   float emission_pdf(size_t light) const { return lights_[light].emission_pdf; }
 
  private:
+  static constexpr size_t most_lights_for_all = 4;  // a shadow ray costs about as much as choosing well
   struct Entry {
     shader::LightParams params;
     bool casts_shadows = true;

@@ -1,105 +1,18 @@
 #include "reference/path_tracer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-
-#include <tbb/parallel_for.h>
 
 #include "common/run/error.h"
+#include "reference/batch_renderer.h"
 #include "reference/direct_image.h"
-#include "reference/path_sampler.h"
 
 namespace relight {
 
 namespace {
 
-constexpr int tile_size = 16;  // pixels a side: large enough to share a piece of the hierarchy
-constexpr uint64_t random_stream = 0x7265666572656e63;  // keeps the reference's numbers apart from all others
-
-// Mean and sum of squared deviations of a pixel's batch means (Welford's update).
-struct PixelStatistics {
-  glm::dvec3 mean{0.0}, squares{0.0};
-  void add(const glm::dvec3& batch_mean, int number_of_batches) {
-    const glm::dvec3 before = batch_mean - mean;
-    mean += before / static_cast<double>(number_of_batches);
-    squares += before * (batch_mean - mean);
-  }
-};
-
-// Renders batches into per-pixel statistics. Every pixel's numbers depend on seed, pixel and batch only, and
-// each pixel adds its batches in order: the result is the same for any number of threads.
-class BatchRenderer {
- public:
-  BatchRenderer(const PathSampler& sampler, const DeepFrameBuffer& buffer, const PathTracerSettings& settings,
-                int samples_per_batch)
-      : sampler_(sampler),
-        buffer_(buffer),
-        settings_(settings),
-        samples_(samples_per_batch),
-        tiles_x_((buffer.view.width + tile_size - 1) / tile_size),
-        tiles_y_((buffer.view.height + tile_size - 1) / tile_size),
-        pixels_(buffer.indirect.size()) {}
-
-  int tiles() const { return tiles_x_ * tiles_y_; }
-  int64_t rays() const { return rays_; }
-  int64_t non_finite() const { return non_finite_; }
-  const std::vector<PixelStatistics>& pixels() const { return pixels_; }
-
-  void render(int batch, Progress& progress) {
-    tbb::parallel_for(0, tiles(), [&](int tile) {
-      render_tile(tile, batch);
-      progress.advance();
-    });
-  }
-
- private:
-  void render_tile(int tile, int batch) {
-    const int w = buffer_.view.width, h = buffer_.view.height;
-    const int x0 = tile % tiles_x_ * tile_size, y0 = tile / tiles_x_ * tile_size;
-    int64_t rays = 0, non_finite = 0;
-    for (int y = y0; y < std::min(y0 + tile_size, h); ++y)
-      for (int x = x0; x < std::min(x0 + tile_size, w); ++x) {
-        const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x);
-        pixels_[pixel].add(batch_mean(x, y, batch, rays, non_finite), batch + 1);
-      }
-    rays_ += rays;
-    non_finite_ += non_finite;
-  }
-
-  // All sub-pixels share one Sobol sequence, so that the pixel as a whole is stratified; a random rotation
-  // makes batches of fewer than four samples visit every sub-pixel with the same probability.
-  glm::dvec3 batch_mean(int x, int y, int batch, int64_t& rays, int64_t& non_finite) const {
-    const auto pixel =
-        static_cast<uint64_t>(y) * static_cast<uint64_t>(buffer_.view.width) + static_cast<uint64_t>(x);
-    const uint64_t scramble = random_bits(settings_.seed, random_stream, pixel,
-                                          settings_.one_sequence ? 0 : static_cast<uint64_t>(batch));
-    const auto first =
-        settings_.one_sequence ? static_cast<uint32_t>(batch) * static_cast<uint32_t>(samples_) : 0u;
-    glm::dvec3 sum(0.0);
-    for (uint32_t s = first; s < first + static_cast<uint32_t>(samples_); ++s) {
-      const uint32_t sub = (s + static_cast<uint32_t>(scramble >> 62)) & 3u;
-      const size_t row = 2 * static_cast<size_t>(y) + sub / 2, column = 2 * static_cast<size_t>(x) + sub % 2;
-      const SurfaceSample& x1 = buffer_.direct[row * 2 * static_cast<size_t>(buffer_.view.width) + column];
-      if (!x1.valid) continue;
-      const glm::vec3 value = sampler_.sample(x1, buffer_.view.camera.eye, {scramble, s}, rays);
-      if (std::isfinite(value.x + value.y + value.z)) {
-        sum += glm::dvec3(value);
-      } else {
-        ++non_finite;
-      }
-    }
-    return sum / static_cast<double>(samples_);
-  }
-
-  const PathSampler& sampler_;
-  const DeepFrameBuffer& buffer_;
-  const PathTracerSettings& settings_;
-  int samples_, tiles_x_, tiles_y_;
-  std::vector<PixelStatistics> pixels_;
-  std::atomic<int64_t> rays_{0}, non_finite_{0};
-};
+// A sixteenth of the samples at most, and enough: a tile has 16 pixels.
+constexpr int planning_samples = 8, least_samples_for_planning = 128;
 
 void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   const int least = settings.one_sequence ? 1 : 2;
@@ -152,8 +65,10 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   const int per_batch = (settings.samples_per_pixel + settings.batches - 1) / settings.batches;
   const int least_batches = settings.one_sequence ? 1 : 2;
   const PathSampler sampler(tracer, lights, settings.paths, settings.estimator);
-  BatchRenderer renderer(sampler, buffer, settings, per_batch);
-  progress.start("path tracing", static_cast<int64_t>(settings.batches) * renderer.tiles());
+  BatchRenderer renderer(sampler, tracer, buffer, settings, per_batch);
+  progress.start("path tracing", static_cast<int64_t>(settings.batches) * renderer.tasks());
+  const bool adaptive = settings.estimator == Estimator::light_vertex && !settings.one_sequence;
+  if (adaptive && settings.samples_per_pixel >= least_samples_for_planning) renderer.plan(planning_samples);
   double longest_batch = 0.0;
   for (int batch = 0; batch < settings.batches; ++batch) {
     const double before = elapsed();

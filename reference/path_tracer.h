@@ -4,14 +4,20 @@
 // What goes where: `direct` holds point lights seen from the visible surface (0 bounces) and, where
 // LightPaths counts them, emission and environment seen by the camera. `indirect` holds
 // min_bounces..max_bounces bounces. Environment and emission have no exact direct part: what they send to the
-// visible surface (0 bounces) is sampled, and is part of `indirect` if and only if min_bounces = 0. A lobe
-// that LightPaths doesn't allow at a vertex neither reflects nor is sampled there; `direct` always has both
-// lobes. Does not do: area lights as targets of next-event estimation, refraction, caustics from glossy
-// surfaces (found by chance).
+// visible surface (0 bounces) is sampled, and is part of `indirect` if and only if min_bounces = 0.
+//
+// A lobe that LightPaths doesn't allow at a vertex neither reflects nor is sampled there; `direct` always has
+// both lobes.
+//
+// The light_vertex estimator shares light vertices between the pixels of a 4x4 tile (their errors are
+// correlated, different tiles are independent), and from 128 samples a pixel on it traces more paths where a
+// separate first look found more noise; see batch_renderer.h.
+//
+// Does not do: area lights as targets of next-event estimation, refraction, caustics from glossy surfaces
+// (found by chance only).
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "common/image/image.h"
 #include "common/run/light_paths.h"
@@ -24,21 +30,22 @@ namespace relight {
 
 enum class Estimator {
   next_event,   // BRDF sampling, next-event estimation at every vertex
-  light_vertex  // the same, MIS-combined at every vertex with a connection to the first surface hit by a path
-                // from a light
+  light_vertex  // the same, MIS-combined at every vertex with connections to surfaces first hit by light
 };
 
 struct PathTracerSettings {
   LightPaths paths;  // which bounces and lobes count; direct light (0 bounces) is always rendered apart
-  int samples_per_pixel =
-      256;          // indirect paths a pixel, spread evenly over the 2x2 sub-pixels of the deep frame buffer
+  // Indirect samples a pixel, spread evenly over the 2x2 sub-pixels of the deep frame buffer; at least
+  // `batches`, rounded up to a multiple of it. A multiple of 4 x batches stratifies best.
+  int samples_per_pixel = 256;
   int batches = 8;  // independent scramblings; variance comes from their spread. >= 2
   Estimator estimator = Estimator::light_vertex;
   uint64_t seed = 1;
-  double time_limit_s = 0.0;  // > 0: stop before the batch that would exceed it (whole batches, direct light
-                              // included; at least two batches, or one with one_sequence)
-  bool one_sequence =
-      false;  // batches continue one Sobol sequence: less noise under a time limit, but no variance
+  // > 0: stop before the batch that would exceed it; whole batches, direct light included; at least two
+  // batches (with one_sequence: one).
+  double time_limit_s = 0.0;
+  // Batches continue one Sobol sequence: less noise under a time limit, but no variance.
+  bool one_sequence = false;
 };
 
 struct PathTracerResult {

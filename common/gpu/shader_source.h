@@ -14,13 +14,14 @@ struct EmbeddedShader {
 extern const EmbeddedShader embedded_shaders[];
 extern const int embedded_shader_count;
 
-// Source ready for glShaderSource: "#version 450 core", the RL_* macros of common/glsl_in_cpp.h, `defines` (e.g.
-// "LOCAL_SIZE 64"), then the file with its includes expanded. Throws Error on an unknown path, naming the known ones.
+// Source ready for glShaderSource: "#version 450 core", the RL_* macros of common/glsl_in_cpp.h, `defines`
+// (e.g. "LOCAL_SIZE 64"), then the file with its includes expanded. Throws Error on an unknown path, naming
+// the known ones.
 struct ShaderSource {
   std::string text;
   std::vector<std::string> files;  // every file taken, the main one first
-  // Where line i + 1 of `text` comes from: index into files (-1: none) and line from 1. Kept here instead of #line
-  // directives because Mesa forgets the source number inside expressions.
+  // Where line i + 1 of `text` comes from: index into files (-1: none) and line from 1. Kept here instead of
+  // #line directives because Mesa forgets the source number inside expressions.
   struct Origin {
     int file, line;
   };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "common/run/atomic_file.h"
@@ -18,15 +19,16 @@ namespace {
 // NaN and infinity must not pass for black or white when somebody looks at a picture.
 constexpr glm::u8vec3 non_finite_colour{255, 0, 255};
 
-// `size` pixels of one row-major buffer; `what` is the file that the user asked for, not the temporary one.
-void write_pixels(const std::filesystem::path& temporary, const std::filesystem::path& what,
-                  const OIIO::ImageSpec& spec, const void* pixels) {
-  const auto out = OIIO::ImageOutput::create(temporary.string());
-  if (!out) fail("cannot write '{}': {}", what.string(), OIIO::geterror());
-  if (!out->open(temporary.string(), spec)) fail("cannot write '{}': {}", what.string(), out->geterror());
-  // close() writes what is buffered: a full disk may show only there.
+// Encodes into memory and writes that: OpenImageIO's PNG writer does not tell of a full disk.
+void write_encoded(const std::filesystem::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto out = OIIO::ImageOutput::create(file.string(), &memory);
+  if (!out) fail("cannot write '{}': {}", file.string(), OIIO::geterror());
+  if (!out->open(file.string(), spec)) fail("cannot write '{}': {}", file.string(), out->geterror());
   const bool written = out->write_image(spec.format, pixels);
-  if (!out->close() || !written) fail("cannot write '{}': {}", what.string(), out->geterror());
+  if (!out->close() || !written) fail("cannot write '{}': {}", file.string(), out->geterror());
+  const auto& buffer = memory.buffer();
+  write_text_atomically(file, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
 }
 
 void require_pixels(const std::filesystem::path& file, const Image& image) {
@@ -54,9 +56,7 @@ void write_exr(const std::filesystem::path& file, const Image& image,
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
-    write_pixels(temporary, file, spec, image.pixels.data());
-  });
+  write_encoded(file, spec, image.pixels.data());
 }
 
 Image read_exr(const std::filesystem::path& file) {
@@ -85,9 +85,7 @@ void write_png(const std::filesystem::path& file, const Image& image, float expo
                  [&](const glm::vec3& pixel) { return encode_pixel(exposure * pixel); });
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
-    write_pixels(temporary, file, spec, encoded.data());
-  });
+  write_encoded(file, spec, encoded.data());
 }
 
 }  // namespace relight

@@ -61,9 +61,9 @@ class SquareSums {
   Estimate root_mean(double values) const { return root(difference_ / values, values, 0.0); }
 
  private:
-  // slope: minus d q / d denominator times the denominator (0: a denominator without noise). The measured d contains
-  // z itself, which makes 4 sum (sigma.(d + slope r))^2 twice as large as it should be where d is noise only: one
-  // chi-square part is taken off, and one is the least that must remain.
+  // slope: minus d q / d denominator times the denominator (0: a denominator without noise). The measured d
+  // contains z itself, which makes 4 sum (sigma.(d + slope r))^2 twice as large as it should be where d is
+  // noise only: one chi-square part is taken off, and one is the least that must remain.
   Estimate root(double q, double denominator, double slope) const {
     const double chi_square = 2.0 * (1.0 - slope) * (1.0 - slope) * noise_squares_;
     const double linear = 4.0 * (dd_ + 2.0 * slope * dr_ + slope * slope * rr_);
@@ -74,23 +74,27 @@ class SquareSums {
   double difference_ = 0, reference_ = 0, noise_ = 0, noise_squares_ = 0, dd_ = 0, dr_ = 0, rr_ = 0;
 };
 
-// mean d^2 / (R^2 + 0.01) over pixels and channels.
+// mean d^2 f(R) over pixels and channels, f(R) = 1 / (R^2 + 0.01). Here the weight is noisy too; for A = R
+// Stein's lemma gives E n^2 f(R + n) = E [v f(R + n) + v^2 f''(R + n)] exactly, with v the variance of n.
 class RelativeSquareMean {
  public:
   void add(const Sample& s) {
-    const glm::dvec3 d = s.a - s.r, weight = 1.0 / (s.r * s.r + relmse_offset);
-    const double noise = glm::dot(s.sigma * s.sigma, weight);
+    const glm::dvec3 d = s.a - s.r, v = s.sigma * s.sigma, weight = 1.0 / (s.r * s.r + relmse_offset);
+    const glm::dvec3 curvature = (6.0 * s.r * s.r - 2.0 * relmse_offset) * weight * weight * weight;
+    const double noise = glm::dot(v, weight);
     const double slope = glm::dot(s.sigma, -2.0 * d * weight - 2.0 * s.r * d * d * weight * weight);
-    value_ += glm::dot(d * d, weight), noise_ += noise, noise_squares_ += noise * noise,
-        linear_ += slope * slope;
+    value_ += glm::dot(d * d, weight), floor_ += noise + glm::dot(v * v, curvature);
+    noise_squares_ += noise * noise, linear_ += slope * slope;
   }
   Estimate mean(double values) const {
     const double variance = std::max(linear_ - 2.0 * noise_squares_, 2.0 * noise_squares_);
-    return {value_ / values, noise_ / values, normal_quantile_95 * std::sqrt(variance) / values};
+    // Noise beyond the offset on a black reference could turn the estimate's sign.
+    return {value_ / values, std::max(floor_, 0.0) / values,
+            normal_quantile_95 * std::sqrt(variance) / values};
   }
 
  private:
-  double value_ = 0, noise_ = 0, noise_squares_ = 0, linear_ = 0;
+  double value_ = 0, floor_ = 0, noise_squares_ = 0, linear_ = 0;
 };
 
 // mean(A - R) / mean(R) = sum A / sum R - 1: noise reaches it through sum R alone.

@@ -28,7 +28,7 @@ struct ErrorReport {
   // What each metric would be on average if A were the noise-free image: a measured value near its floor says nothing
   // about A. With s_p = sum_c sigma_c^2 of pixel p (after exposure and clamp where the metric has them):
   //   relative*, rmse  E sqrt(sum s_p z_p^2) over the metric's denominator; the sum as a scaled chi-square
-  //   relmse           mean sigma^2 / (R^2 + 0.01)
+  //   relmse           mean v f(R) + v^2 f''(R), f(R) = 1 / (R^2 + 0.01), v = sigma^2 (Stein's lemma)
   //   bias             E |bias| = sqrt(2/pi) sd(bias): the signed mean would be 0 and hide the noise
   //   ssim             expected ssim, below 1; each window's moments replaced by their expectations
   //   max              E max_p max_c sigma_pc |z_p|

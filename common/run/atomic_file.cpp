@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <string>
 #include <system_error>
 
 #include <unistd.h>
@@ -45,10 +46,10 @@ void write_atomically(const std::filesystem::path& file,
   }
 }
 
-void write_text_atomically(const std::filesystem::path& file, const std::string& text) {
+void write_text_atomically(const std::filesystem::path& file, std::string_view bytes) {
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) fail("cannot write '{}': disk full or no permission", file.string());
   });

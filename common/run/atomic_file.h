@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <string>
+#include <string_view>
 
 namespace relight {
 
@@ -13,7 +13,7 @@ namespace relight {
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
-// The same for a text. Throws Error naming the file, e.g. on a full disk.
-void write_text_atomically(const std::filesystem::path& file, const std::string& text);
+// The same for given bytes, text or not. Throws Error naming the file, e.g. on a full disk.
+void write_text_atomically(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace relight

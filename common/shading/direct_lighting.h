@@ -38,7 +38,9 @@ enum class Shadows { map, traced };
 
 struct DirectLightingSettings {
   Shadows shadows = Shadows::map;
-  int shadow_map_size = 2048;  // texels a side: of a spot's map, and of each of an omni's six faces
+  // Texels a side: of a spot's map, and of each of an omni's six faces. Away from shadow edges the maps show
+  // no false shadows; surfaces closer to each other than about two texels may let light through.
+  int shadow_map_size = 2048;
 };
 
 // One shaded channel set: which lobes leave the sample.

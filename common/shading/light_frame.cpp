@@ -1,6 +1,5 @@
 #include "common/shading/light_frame.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace relight {
@@ -43,7 +42,7 @@ ShadowFace LightFrame::face(int i) const {
   }
 }
 
-LightFrame light_frame(const Light& light, float clearance, float reach, int map_size) {
+LightFrame light_frame(const Light& light, float reach, int map_size) {
   LightFrame frame;
   frame.position = light.position;
   frame.faces = faces_needed(light);
@@ -54,9 +53,7 @@ LightFrame light_frame(const Light& light, float clearance, float reach, int map
     frame.tan_half =
         std::tan(glm::radians(light.outer_degrees)) * (1.0f + 2.0f / static_cast<float>(map_size));
   }
-  const float corner_cosine = 1.0f / std::sqrt(1.0f + 2.0f * frame.tan_half * frame.tan_half);
-  const float smallest = reach > 0.0f ? reach * 0x1p-20f : 1.0f;
-  frame.near = std::max(0.5f * clearance * corner_cosine, smallest);
+  frame.near = reach > 0.0f ? reach * 0x1p-20f : 1.0f;
   return frame;
 }
 

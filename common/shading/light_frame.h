@@ -30,10 +30,10 @@ struct LightFrame {
 // spent outside a cube face's share.
 constexpr float widest_single_map_degrees = 60.0f;
 
-// clearance: distance from the light to the nearest surface; reach: to the farthest point of the scene. Both
-// in scene units, >= 0. map_size: texels a side. The near plane lies at half the depth that the nearest
-// surface can have in a corner of a map, so it cuts nothing; for a light on a surface it lies at 2^-20 of the
-// reach, which is below the rounding of the positions themselves.
-LightFrame light_frame(const Light& light, float clearance, float reach, int map_size);
+// reach: distance from the light to the farthest point of the scene [scene units, >= 0]. map_size: texels a
+// side. The near plane lies at 2^-20 of the reach, below the rounding of the positions themselves, so it cuts
+// nothing that matters even for a light on a surface; with reversed depth a near plane so close costs no
+// precision.
+LightFrame light_frame(const Light& light, float reach, int map_size);
 
 }  // namespace relight

@@ -14,9 +14,9 @@
 namespace relight {
 
 // For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff
-// where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" is the distance of equation 9, K^2
-// |p-p'|^2 + d^2 |n-n'|^2, with shading normals, K = 30 and d the extent of the visible points; the own pixel
-// wins ties. Depends on the view only. Parallel, deterministic.
+// where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" has the form of equation 9:
+// |p-p'|^2 / (20 f)^2 + |n-n'|^2 with shading normals and f the width of a pixel at the sample's distance;
+// the own pixel wins ties. Depends on the view only. Parallel, deterministic.
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer);
 
 // CPU twin. indirect: one radiance a pixel. Returns the box-filtered indirect image.

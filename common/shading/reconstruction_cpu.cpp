@@ -1,6 +1,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -11,24 +12,24 @@ namespace {
 
 constexpr uint32_t no_sample = std::numeric_limits<uint32_t>::max();
 
-// K of equation 9, which weighs positions against normals; the paper found 20 to 40 good.
-constexpr float position_weight = 30.0f;
+// How many pixel footprints weigh as much as a unit difference of normals. Equation 9 with its K = 30 gives d
+// / 30, which is about 20 pixels in the paper's 640 x 480 images; counted in footprints it holds at any
+// resolution and distance.
+constexpr float footprints_per_normal = 20.0f;
 
 float squared(const glm::vec3& v) { return glm::dot(v, v); }
 
-// The distance of equation 9 between two visible points, divided by d^2: position_scale = K / d.
+// The distance of equation 9 between two visible points, divided by d^2.
 float dissimilarity(const SurfaceSample& a, const SurfaceSample& b, float position_scale) {
   return squared((a.position - b.position) * position_scale) + squared(a.shading_normal - b.shading_normal);
 }
 
-// K / d with d the extent of the visible points; any value serves if they all coincide.
-float position_scale(const std::vector<SurfaceSample>& samples) {
-  Bounds bounds;
-  for (const SurfaceSample& s : samples) {
-    if (s.valid) bounds.add(s.position);
-  }
-  const float d = bounds.diagonal();
-  return d > 0.0f ? position_weight / d : 1.0f;
+// K / d of equation 9 for a sample: 1 / (20 footprints of its pixel).
+float position_scale(const View& view, const SurfaceSample& sample) {
+  const float pixel_angle =
+      2.0f * std::tan(glm::radians(view.camera.fov_y_degrees) * 0.5f) / static_cast<float>(view.height);
+  const float footprint = pixel_angle * glm::length(sample.position - view.camera.eye);
+  return footprint > 0.0f ? 1.0f / (footprints_per_normal * footprint) : 0.0f;
 }
 
 // Row-major numbers of the pixels within one of (x, y), the pixel itself first: it wins ties.
@@ -51,7 +52,6 @@ glm::vec3 filtered(const std::vector<glm::vec3>& values, size_t top, size_t row)
 
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer) {
   const int width = buffer.view.width, height = buffer.view.height;
-  const float scale = position_scale(buffer.indirect);
   std::vector<uint32_t> closest(buffer.direct.size(), no_sample);
   tbb::parallel_for(tbb::blocked_range<int>(0, 2 * height), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) {
@@ -59,6 +59,7 @@ std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer) {
         const size_t i = static_cast<size_t>(y) * static_cast<size_t>(2 * width) + static_cast<size_t>(x);
         const SurfaceSample& sample = buffer.direct[i];
         if (!sample.valid) continue;
+        const float scale = position_scale(buffer.view, sample);
         float best = std::numeric_limits<float>::infinity();
         for_each_neighbour(x / 2, y / 2, width, height, [&](uint32_t pixel) {
           if (!buffer.indirect[pixel].valid) return;

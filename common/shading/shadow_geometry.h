@@ -16,8 +16,6 @@ class ShadowGeometry {
   // Draws the chunks that may be inside the face. Expects program and framebuffer to be bound; vertex
   // attribute 0 is the position.
   void draw(const LightFrame& frame, const ShadowFace& face) const;
-  // Distance from p to the nearest triangle [scene units]; 0 for a scene without triangles.
-  float clearance(const glm::vec3& p) const;
   // Distance from p to the farthest corner of the scene's bounds.
   float reach(const glm::vec3& p) const;
   bool empty() const { return chunks_.empty(); }
@@ -29,10 +27,8 @@ class ShadowGeometry {
     Bounds bounds;
     int64_t first = 0, count = 0;  // triangles
   };
-  void cut_into_chunks(const std::vector<uint32_t>& order);
+  void cut_into_chunks(const Scene& scene, const std::vector<uint32_t>& order);
 
-  const Scene& scene_;
-  std::vector<uint32_t> order_;  // triangle indices by object
   std::vector<Chunk> chunks_;
   Bounds bounds_;
   gpu::Buffer positions_, indices_;

@@ -46,8 +46,7 @@ ShadowMaps::ShadowMaps(const Scene& scene, int size)
 }
 
 LightFrame ShadowMaps::render(const Light& light) {
-  const LightFrame frame =
-      light_frame(light, geometry_.clearance(light.position), geometry_.reach(light.position), size_);
+  const LightFrame frame = light_frame(light, geometry_.reach(light.position), size_);
   if (maps_.layers() < frame.faces) {
     maps_ = {};  // free the smaller one first
     maps_ = gpu::Texture::depth_maps(size_, frame.faces);

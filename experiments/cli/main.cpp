@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
+#include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
 
 namespace {
@@ -28,12 +29,12 @@ void print_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   std::string valid;
   for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
-    valid += (valid.empty() ? "" : ", ") + sub->get_name();
+    relight::append_name(valid, sub->get_name());
   }
   const char* kind = valid.empty() ? "options" : "commands";
   if (valid.empty()) {
     for (const CLI::Option* option : command.get_options()) {
-      valid += (valid.empty() ? "" : ", ") + option->get_name();
+      relight::append_name(valid, option->get_name());
     }
   }
   fmt::print(stderr, "{}: {}\nvalid {}: {}\nsee `{} --help`\n", path_of(command), error.what(), kind, valid,

@@ -2,7 +2,6 @@
 
 #include <list>
 
-#include "common/sampling/random.h"
 #include "experiments/compare/image_files.h"
 #include "experiments/compare/method_record.h"
 #include "experiments/compare/reference_images.h"
@@ -27,8 +26,7 @@ class References {
     settings.paths = paths;
     settings.samples_per_pixel = plan_.reference_samples;
     settings.estimator = plan_.reference_estimator;
-    // Its own stream: with the seed of a path tracing method the errors of both would be correlated.
-    settings.seed = hash_combine(plan_.session.seed, 0x7265666572656e63ull);
+    settings.seed = plan_.session.seed;
     made_.push_back(reference_images(session_, settings, log));
     return made_.back();
   }

@@ -7,7 +7,6 @@ namespace relight {
 
 namespace {
 
-constexpr int max_samples = 1 << 24;  // stratified indices and float sums are exact up to here
 constexpr int max_repeats = 10000;
 
 void add_option(std::string& command, const std::string& option, const std::string& value) {
@@ -39,7 +38,7 @@ std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
     std::string valid;
     for (const Method* method : methods) {
       known = known || method->name() == settings.back().method;
-      valid += (valid.empty() ? "" : ", ") + method->name();
+      append_name(valid, method->name());
     }
     if (!known) {
       usage_fail("--set '{}': '{}' is not among the methods of this run; valid: {}", text,
@@ -60,9 +59,7 @@ ComparePlan make_plan(const CompareOptions& options, const MethodList& methods) 
   for (const Method* method : chosen) plan.methods.push_back(plan_method(*method, settings));
   parse_view(options.session.view);
   if (!options.bounces.empty()) plan.bounces = parse_bounces(options.bounces);
-  if (options.reference_samples < 2 || options.reference_samples > max_samples) {
-    usage_fail("--reference-samples {}: expected 2 to {}", options.reference_samples, max_samples);
-  }
+  require_samples("--reference-samples", options.reference_samples);
   if (options.repeats < 0 || options.repeats > max_repeats) {
     usage_fail("--repeats {}: expected 0 (chosen by duration) to {}", options.repeats, max_repeats);
   }
@@ -86,7 +83,10 @@ LightPaths reference_paths(const ComparePlan& plan, const MethodPlan& method) {
 std::string command_line(const ComparePlan& plan, const std::string& lights,
                          const std::vector<MethodPlan>& methods) {
   std::string names;
-  for (const MethodPlan& method : methods) names += (names.empty() ? "" : ",") + method.method->name();
+  for (const MethodPlan& method : methods) {
+    if (!names.empty()) names += ",";
+    names += method.method->name();
+  }
   std::string command = "relight compare";
   add_option(command, "--scene", plan.session.scene);
   add_option(command, "--view", plan.session.view);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <new>
 
+#include "common/run/error.h"
+
 namespace relight {
 
 namespace {

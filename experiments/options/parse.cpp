@@ -57,6 +57,14 @@ std::string to_string(Estimator estimator) {
   return estimator == Estimator::next_event ? "next_event" : "light_vertex";
 }
 
+void require_samples(const std::string& option, int samples) {
+  const int min_samples = PathTracerSettings{}.batches;
+  constexpr int max_samples = 1 << 24;  // stratified indices and float sums are exact up to here
+  if (samples < min_samples || samples > max_samples) {
+    usage_fail("{} {}: expected {} (one for each batch) to {}", option, samples, min_samples, max_samples);
+  }
+}
+
 KnobSetting parse_knob_setting(const std::string& text) {
   const size_t equals = text.find('=');
   const size_t dot = text.substr(0, equals).find('.');
@@ -79,6 +87,11 @@ std::vector<std::string> parse_name_list(const std::string& option, const std::s
     }
   }
   return names;
+}
+
+void append_name(std::string& list, const std::string& name) {
+  if (!list.empty()) list += ", ";
+  list += name;
 }
 
 std::string shell_quoted(const std::string& text) {

@@ -27,6 +27,9 @@ std::string to_string(const BounceRange& range);
 Estimator parse_estimator(const std::string& text);
 std::string to_string(Estimator estimator);
 
+// Samples a pixel for a path-traced reference: at least one for each of its batches, at most 2^24.
+void require_samples(const std::string& option, int samples);
+
 struct KnobSetting {
   std::string method, knob, value;
 };
@@ -35,6 +38,9 @@ KnobSetting parse_knob_setting(const std::string& text);
 
 // "a,b,c" without empty parts or repetitions.
 std::vector<std::string> parse_name_list(const std::string& option, const std::string& text);
+
+// Adds a name to a list for people: "a, b, c".
+void append_name(std::string& list, const std::string& name);
 
 // `text` as one word for a POSIX shell.
 std::string shell_quoted(const std::string& text);

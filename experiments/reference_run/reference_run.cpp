@@ -19,16 +19,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int max_samples = 1 << 24;
-
 PathTracerSettings settings_of(const ReferenceOptions& options) {
   const BounceRange bounces = parse_bounces(options.bounces);
   if (options.glossy != "none" && options.glossy != "eye" && options.glossy != "all") {
     usage_fail("--glossy '{}': valid: none, eye, all", options.glossy);
   }
-  if (options.samples < 2 || options.samples > max_samples) {
-    usage_fail("--samples {}: expected 2 to {}", options.samples, max_samples);
-  }
+  require_samples("--samples", options.samples);
   if (!(options.time_limit_s >= 0.0) || std::isinf(options.time_limit_s)) {
     usage_fail("--time {}: expected a number of seconds, 0 for no limit", options.time_limit_s);
   }
@@ -50,7 +46,7 @@ Json floor_json(const MetricSet& floor) {
           {"relative_hdr", floor.relative_hdr},
           {"rmse", floor.rmse},
           {"relmse", floor.relmse},
-          {"ssim_loss", floor.ssim}};
+          {"ssim", floor.ssim}};
 }
 
 Json description(const Session& session, const ReferenceImages& reference, const ErrorReport& report) {

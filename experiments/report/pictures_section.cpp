@@ -54,35 +54,32 @@ std::string missing(const std::string& caption, const RunRecord& record) {
                      caption);
 }
 
+// sRGB (IEC 61966-2-1) of a linear colour.
+std::string css_colour(const glm::vec3& linear) {
+  const auto code = [](float c) {
+    const double s = c <= 0.0031308f ? 12.92 * c : 1.055 * std::pow(static_cast<double>(c), 1.0 / 2.4) - 0.055;
+    return std::lround(255.0 * std::clamp(s, 0.0, 1.0));
+  };
+  return fmt::format("rgb({},{},{})", code(linear.x), code(linear.y), code(linear.z));
+}
+
+// One rectangle a step rather than a gradient: gradients need an id, and the bar appears more than once.
 std::string colour_bar(double full_scale) {
-  std::string stops;
-  for (int i = 0; i <= 10; ++i) {
-    const glm::vec3 linear = glm::clamp(false_colour(i / 10.0), 0.0f, 1.0f);
-    const auto code = [](float c) {  // IEC 61966-2-1
-      const double s =
-          c <= 0.0031308f ? 12.92 * c : 1.055 * std::pow(static_cast<double>(c), 1.0 / 2.4) - 0.055;
-      return static_cast<int>(std::lround(255.0 * s));
-    };
-    stops += fmt::format("<stop offset='{}%' stop-color='rgb({},{},{})'/>", 10 * i, code(linear.x),
-                         code(linear.y), code(linear.z));
+  constexpr int steps = 60, step_width = 5, left = 10;
+  std::string shapes;
+  for (int i = 0; i < steps; ++i) {
+    shapes += fmt::format("<rect x='{}' y='8' width='{}' height='20' fill='{}'/>", left + step_width * i,
+                          step_width + 1, css_colour(false_colour((i + 0.5) / steps)));
   }
-  std::string labels;
   for (int i = 0; i <= 2; ++i) {
-    labels += fmt::format("<text x='{}' y='44' text-anchor='{}'>{:.3g}</text>", 10 + 150 * i,
-                          i == 0   ? "start"
-                          : i == 1 ? "middle"
-                                   : "end",
-                          full_scale * i / 2.0);
+    shapes += fmt::format("<text x='{}' y='44' text-anchor='{}'>{:.3g}</text>", left + steps * step_width * i / 2,
+                          i == 0 ? "start" : i == 1 ? "middle" : "end", full_scale * i / 2.0);
   }
   return fmt::format(
-      "<div class=bar><svg viewBox='0 0 320 50' role=img aria-label='colour bar'><defs><linearGradient "
-      "id='scale'>{}"
-      "</linearGradient></defs><rect x='10' y='8' width='300' height='20' "
-      "fill='url(#scale)'/>{}</svg><p>Absolute "
-      "difference after exposure, mean of the channels; one scale for every difference on this page "
-      "(99&#8239;% of "
-      "the pixels of the worst picture lie below its end). Magenta: not a number.</p></div>",
-      stops, labels);
+      "<div class=bar><svg viewBox='0 0 320 50' role=img aria-label='colour bar'>{}</svg><p>Absolute difference after "
+      "exposure, mean of the channels; one scale for every difference on this page (99&#8239;% of the pixels of the "
+      "worst picture lie below its end). Magenta: not a number.</p></div>",
+      shapes);
 }
 
 // Methods with the same reference share one block of the page.

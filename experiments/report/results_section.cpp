@@ -15,7 +15,7 @@ std::string error_cell(const std::optional<ErrorReport>& errors, double MetricSe
 }
 
 std::string plain_cell(const std::optional<ErrorReport>& errors, double MetricSet::*metric) {
-  return errors ? fmt::format("<td class=num>{:.4g}</td>", errors->value.*metric)
+  return errors ? fmt::format("<td class=num>{:.3g}</td>", errors->value.*metric)
                 : "<td class=num>&ndash;</td>";
 }
 
@@ -47,10 +47,10 @@ bool smallest(const Records& records, const RunRecord& record) {
 
 std::string results_section(const Records& records) {
   std::string html =
-      "<section><h2>Results</h2><table><thead><tr><th>Method</th><th>Relative error</th><th>Edges left "
-      "out</th>"
-      "<th>Indirect light only</th><th>Unclamped</th><th>RMSE</th><th>relMSE</th><th>Bias</th><th>SSIM</th>"
-      "<th>Largest</th><th>Precompute</th><th>Relight</th><th>Memory</th></tr></thead><tbody>";
+      "<section><h2>Results</h2><table><thead><tr><th>Method</th><th class=num>Relative error</th><th class=num>Edges "
+      "left out</th><th class=num>Indirect<br>light only</th><th class=num>Un-<br>clamped</th><th class=num>RMSE</th>"
+      "<th class=num>relMSE</th><th class=num>Bias</th><th class=num>SSIM</th><th class=num>Largest</th>"
+      "<th class=num>Pre-<br>compute</th><th class=num>Relight</th><th class=num>Memory</th></tr></thead><tbody>";
   for (const RunRecord& r : records) {
     html +=
         fmt::format("<tr{}><th>{}</th>", r.failed_stages.empty() ? "" : " class=failed", escaped(r.method));

@@ -31,7 +31,7 @@ auto timed(StageLog& log, const char* stage, Function function) {
 
 std::string preset_names(const Scene& scene) {
   std::string names;
-  for (const auto& [name, lighting] : scene.lightings) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, lighting] : scene.lightings) append_name(names, name);
   return names.empty() ? "none" : names;
 }
 
@@ -55,7 +55,7 @@ Scene load_named_scene(const std::string& name) {
       std::any_of(builtins.begin(), builtins.end(), [&](const BuiltinScene& b) { return b.name == base; });
   if (!known) {
     std::string names;
-    for (const auto& builtin : builtins) names += (names.empty() ? "" : ", ") + builtin.name;
+    for (const auto& builtin : builtins) append_name(names, builtin.name);
     usage_fail("scene '{}': neither a file nor a built-in scene; valid built-in scenes: {}", name, names);
   }
   try {

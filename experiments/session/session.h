@@ -30,8 +30,8 @@ class Session {
   const DeepFrameBuffer& buffer() const { return buffer_; }
   ArtefactCache& cache() { return cache_; }
   Progress& progress() { return progress_; }
-  gpu::Context* gpu() { return gpu_.get(); }
-  StageLog& setup() { return setup_; }  // loading, BVH, deep frame buffer
+  gpu::Context* gpu() { return gpu_.get(); }        // null if not needed
+  const StageLog& setup() const { return setup_; }  // loading, BVH, deep frame buffer
   const SessionOptions& options() const { return options_; }
 
  private:

@@ -66,10 +66,9 @@ class Splitter {
   }
 
   // Section 4.2: sort by d(s,c1) - d(s,c2), halve, move the centroids, until the halves stay the same. Only
-  // the halves matter, so a selection replaces the sort.
-  void split(std::span<uint32_t> samples) const {
-    Point c1 = farthest_from(mean(samples), samples);
-    Point c2 = farthest_from(c1, samples);
+  // the halves matter, so a selection replaces the sort. `samples` ends as the two halves; returns their
+  // cost, the sum of squared distances to the half's mean.
+  double refine(std::span<uint32_t> samples, Point c1, Point c2) const {
     const size_t half = samples.size() / 2;
     std::vector<Keyed> keyed(samples.size());
     std::vector<uint32_t> previous;
@@ -84,6 +83,31 @@ class Splitter {
       previous = std::move(members);
       c1 = mean(samples.first(half));
       c2 = mean(samples.last(half));
+    }
+    return cost(samples.first(half)) + cost(samples.last(half));
+  }
+
+  double cost(std::span<const uint32_t> samples) const {
+    const Point c = mean(samples);
+    double sum = 0.0;
+    for (const uint32_t s : samples) sum += distance2(points_[s], c);
+    return sum;
+  }
+
+  // The paper leaves the start open, and the iteration stops at the nearest local optimum: start from the
+  // farthest pair and from each coordinate axis of the 6-D space, and keep the best.
+  void split(std::span<uint32_t> samples) const {
+    const std::vector<uint32_t> original(samples.begin(), samples.end());
+    const Point centre = mean(original), far1 = farthest_from(centre, original),
+                far2 = farthest_from(far1, original);
+    double best = refine(samples, far1, far2);
+    std::vector<uint32_t> attempt;
+    for (size_t axis = 0; axis < 6 && samples.size() > 2; ++axis) {
+      attempt = original;
+      Point a = centre, b = centre;
+      a[axis] -= 1.0, b[axis] += 1.0;
+      const double c = refine(attempt, a, b);
+      if (c < best) best = c, std::copy(attempt.begin(), attempt.end(), samples.begin());
     }
   }
 

@@ -49,12 +49,12 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
 
 // Returns the scaling coefficient of the cluster's part of each row; appends the details below and at it.
 Lanes TileGather::visit(size_t level, size_t index, uint32_t mask) {
+  if (level + 1 == tree_.levels.size()) return link(level, index, mask);  // a single sample: link() tests it exactly
   const Cluster& cluster = tree_.levels[level][index];
   mask = in_front(cluster, mask);
   if (mask) mask = not_facing_away(cluster, mask);
   if (mask == 0) return Lanes{};
-  const bool leaf = level + 1 == tree_.levels.size();
-  if (leaf || !needs_subdivision(cluster, mask)) return link(level, index, mask);
+  if (!needs_subdivision(cluster, mask)) return link(level, index, mask);
 
   std::array<Lanes, 4> child;
   for (size_t c = 0; c < 4; ++c) child[c] = visit(level + 1, 4 * index + c, mask);

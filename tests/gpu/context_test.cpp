@@ -55,18 +55,23 @@ TEST(GpuContext, CanBeCreatedAndDestroyedManyTimes) {
   }
 }
 
-// Red if switching does not reload the functions, or a back end skips the bind because it believes it is
-// current.
+// Red if a back end skips the bind because it believes it is current still, so that GL calls go to the other
+// context (whose buffer of the same name holds something else).
 TEST(GpuContext, BothBackEndsLiveSideBySide) {
   const auto osmesa = gpu::Context::create("osmesa");
+  const gpu::Buffer in_osmesa = gpu::Buffer::from(std::vector<float>{1});
   std::string reason;
   const auto egl = test::egl_or_null(reason);
   if (!egl) GTEST_SKIP() << reason;
+  const gpu::Buffer in_egl = gpu::Buffer::from(std::vector<float>{2});
+  ASSERT_EQ(in_osmesa.id(), in_egl.id()) << "the test needs equal names in both contexts";
   for (int i = 0; i < 3; ++i) {
     osmesa->make_current();
     EXPECT_EQ(gpu::Context::current(), osmesa.get());
+    EXPECT_EQ(in_osmesa.download<float>()[0], 1.0f);
     expect_doubled(doubled(100, 64));
     egl->make_current();
+    EXPECT_EQ(in_egl.download<float>()[0], 2.0f);
     expect_doubled(doubled(100, 64));
   }
 }

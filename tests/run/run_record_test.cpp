@@ -36,8 +36,11 @@ RunRecord example_record() {
   record.precompute_s = 12.5, record.relight_ms = {3, 2, 4, 7};
   record.precompute_stages = {{"z_first", 1.0}, {"a_second", 2.0}};
   record.relight_stages = {{"shade", 0.003}};
+  record.setup_stages = {{"load", 0.5}};
+  record.reference_paths = "E D+ L", record.not_simulated = {"glossy lobes"};
+  record.command = "relight compare", record.exposure = 1.75;
   record.memory_bytes = {{"matrix", 5'000'000'000}}, record.counters = {{"rays", 123}};
-  record.reference = ReferenceCost{256, 8, 60.5};
+  record.reference = ReferenceCost{256, 8, 60.5, 99, "light_vertex", true};
   record.warnings = {"one"}, record.failed_stages = {"shade: 2 NaN"};
   record.provenance = {
       "commit", true, "compiler", "Release", "cpu", 2, "llvmpipe", "4.5", "2026-01-31T23:59:59Z"};
@@ -89,6 +92,14 @@ TEST(RunRecord, SurvivesARoundTrip) {
   EXPECT_EQ(read.reference.value().samples, 256);
   EXPECT_EQ(read.reference->batches, 8);
   EXPECT_EQ(read.reference->seconds, 60.5);
+  EXPECT_EQ(read.reference->rays, 99);
+  EXPECT_EQ(read.reference->estimator, "light_vertex");
+  EXPECT_TRUE(read.reference->from_cache);
+  EXPECT_EQ(read.setup_stages, record.setup_stages);
+  EXPECT_EQ(read.reference_paths, "E D+ L");
+  EXPECT_EQ(read.not_simulated, record.not_simulated);
+  EXPECT_EQ(read.command, "relight compare");
+  EXPECT_EQ(read.exposure, 1.75);
   EXPECT_EQ(read.warnings, record.warnings);
   EXPECT_EQ(read.failed_stages, record.failed_stages);
   EXPECT_EQ(read.provenance.commit, "commit");

@@ -30,6 +30,7 @@ struct Header {
   std::string format;
   std::vector<Element> elements;
   bool understood = false;
+  bool ended = true;  // false: the file is over before end_header
 };
 
 size_t type_size(const std::string& type) {
@@ -76,6 +77,7 @@ Header read_header(std::istream& in) {
       return header;
     }
   }
+  header.ended = false;
   return header;
 }
 
@@ -118,6 +120,8 @@ class BinaryBody {
 void require_complete_ply(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const Header header = read_header(in);
+  // Assimp would look for it for ever.
+  if (!header.ended) fail("{}: the file is truncated: its header has no end_header", file.string());
   if (!header.understood) return;
   if (header.format == "ascii") {
     // One line an element, as every writer does.

@@ -1,0 +1,175 @@
+#include "reference/batch_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace relight {
+
+namespace {
+
+constexpr int side = 4;  // of a tile
+// Keep the reference's numbers apart from all others, and tiles' from pixels'.
+constexpr uint64_t pixel_stream = 0x7265666572656e63, tile_stream = 0x74696c6573746172;
+// The number of the sequence that planning uses; batches count from 0.
+constexpr uint64_t planning = ~0ull;
+// More would let a few tiles with rare bright samples take most of the time.
+constexpr int most_paths = 16;
+
+// One row a task and no grouping of rows, so that progress moves and the last rows balance.
+template <typename Function>
+void for_each_row(int rows, Function function) {
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, rows, 1),
+      [&](const tbb::blocked_range<int>& range) {
+        for (int row = range.begin(); row < range.end(); ++row) function(row);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace
+
+// Pixels x0 .. x0+3, y0 .. y0+3; those outside the image stay invalid.
+struct BatchRenderer::Tile {
+  EyeTile eye[4];  // by sub-pixel: visible points of the 16 pixels
+  int paths = 1;
+  uint64_t scramble = 0, pixel_scramble[16];
+  glm::dvec3 sum[16] = {};
+  double squares = 0.0;  // of the mean channel, over all pixels
+};
+
+BatchRenderer::BatchRenderer(const PathSampler& sampler, const RayTracer& tracer,
+                             const DeepFrameBuffer& buffer, const PathTracerSettings& settings,
+                             int samples_per_batch)
+    : sampler_(sampler),
+      tracer_(tracer),
+      buffer_(buffer),
+      settings_(settings),
+      samples_(samples_per_batch),
+      tiles_x_((buffer.view.width + side - 1) / side),
+      tiles_y_((buffer.view.height + side - 1) / side),
+      paths_(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_), 1),
+      pixels_(buffer.indirect.size()) {}
+
+int BatchRenderer::tasks() const { return tiles_y_; }
+
+int& BatchRenderer::paths_of(int x0, int y0) {
+  return paths_[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) +
+                static_cast<size_t>(x0 / side)];
+}
+
+BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence) const {
+  const View& view = buffer_.view;
+  const auto number = [&](int x, int y) {
+    return static_cast<uint64_t>(y) * static_cast<uint64_t>(view.width) + static_cast<uint64_t>(x);
+  };
+  Tile tile;
+  tile.scramble = random_bits(settings_.seed, tile_stream, number(x0, y0), sequence);
+  for (int i = 0; i < 16; ++i) {
+    const int x = x0 + i % side, y = y0 + i / side;
+    if (x >= view.width || y >= view.height) continue;
+    tile.pixel_scramble[i] = random_bits(settings_.seed, pixel_stream, number(x, y), sequence);
+    for (int sub = 0; sub < 4; ++sub) {
+      const size_t row = static_cast<size_t>(2 * y + sub / 2), column = static_cast<size_t>(2 * x + sub % 2);
+      const SurfaceSample& x1 = buffer_.direct[row * 2 * static_cast<size_t>(view.width) + column];
+      if (!x1.valid) continue;
+      tile.eye[sub].valid |= 1u << i;
+      tile.eye[sub].vertex[i] = sampler_.eye_vertex(x1, view.camera.eye);
+      tile.eye[sub].position[i] = tracer_.offset_point(x1.position, x1.geometric_normal);
+    }
+  }
+  return tile;
+}
+
+void BatchRenderer::plan(int samples) {
+  std::vector<double> deviation(paths_.size());
+  std::atomic<int64_t> rays{0};
+  for_each_row(tiles_y_, [&](int row) {
+    Counts counts;
+    for (int column = 0; column < tiles_x_; ++column) {
+      Tile tile = make_tile(column * side, row * side, planning);
+      for (int s = 0; s < samples; ++s) sample_tile(tile, static_cast<uint32_t>(s), counts);
+      double variance = tile.squares / samples;
+      for (const glm::dvec3& sum : tile.sum)
+        variance -= std::pow((sum.x + sum.y + sum.z) / (3.0 * samples), 2);
+      deviation[static_cast<size_t>(row * tiles_x_ + column)] = std::sqrt(std::max(0.0, variance));
+    }
+    rays += counts.rays;
+  });
+  rays_ += rays;
+  double mean = 0.0;
+  for (double d : deviation) mean += d / static_cast<double>(deviation.size());
+  if (!(mean > 0.0)) return;
+  for (size_t i = 0; i < paths_.size(); ++i)
+    paths_[i] = std::clamp(static_cast<int>(std::lround(deviation[i] / mean)), 1, most_paths);
+}
+
+void BatchRenderer::render(int batch, Progress& progress) {
+  for_each_row(tiles_y_, [&](int row) {
+    render_row(row, batch);
+    progress.advance();
+  });
+}
+
+void BatchRenderer::render_row(int row, int batch) {
+  Counts counts;
+  for (int x0 = 0; x0 < buffer_.view.width; x0 += side) render_tile(x0, row * side, batch, counts);
+  rays_ += counts.rays;
+  non_finite_ += counts.non_finite;
+}
+
+void BatchRenderer::render_tile(int x0, int y0, int batch, Counts& counts) {
+  Tile tile = make_tile(x0, y0, settings_.one_sequence ? 0 : static_cast<uint64_t>(batch));
+  tile.paths = paths_of(x0, y0);
+  for (EyeTile& eye : tile.eye)
+    for (EyeVertex& vertex : eye.vertex) vertex.paths = static_cast<float>(tile.paths);
+  const uint32_t count = static_cast<uint32_t>(samples_);
+  const uint32_t first = settings_.one_sequence ? static_cast<uint32_t>(batch) * count : 0u;
+  for (uint32_t s = first; s < first + count; ++s) sample_tile(tile, s, counts);
+
+  for (int i = 0; i < 16; ++i) {
+    const int x = x0 + i % side, y = y0 + i / side;
+    if (x >= buffer_.view.width || y >= buffer_.view.height) continue;
+    const size_t pixel =
+        static_cast<size_t>(y) * static_cast<size_t>(buffer_.view.width) + static_cast<size_t>(x);
+    pixels_[pixel].add(tile.sum[i] / static_cast<double>(samples_), batch + 1);
+  }
+}
+
+// All sub-pixels of a pixel share one Sobol sequence, so that the pixel as a whole is stratified; a random
+// rotation makes batches of fewer than four samples visit every sub-pixel with the same probability.
+void BatchRenderer::sample_tile(Tile& tile, uint32_t index, Counts& counts) const {
+  const EyeTile& eye = tile.eye[(index + static_cast<uint32_t>(tile.scramble >> 62)) & 3u];
+  if (eye.valid == 0) return;
+  constexpr int connections = PathSampler::connections_at_eye;
+  const LightConnector& connector = sampler_.connector();
+  glm::vec3 value[16] = {};
+  LightVertex light;
+  if (sampler_.uses_light_vertices()) {
+    const uint32_t first = index * static_cast<uint32_t>(connections);
+    light = connector.trace({tile.scramble, first}, counts.rays);
+    for (int c = 0; sampler_.connects_at_eye() && c < connections; ++c) {
+      const LightVertex y =
+          c == 0 ? light : connector.trace({tile.scramble, first + static_cast<uint32_t>(c)}, counts.rays);
+      if (y.surface.valid) connector.connect(eye, y, connections, value, counts.rays);
+    }
+  }
+  const uint32_t paths = static_cast<uint32_t>(tile.paths);
+  for (int i = 0; i < 16; ++i) {
+    if (!((eye.valid >> i) & 1u)) continue;
+    glm::vec3 sampled(0.0f);
+    for (uint32_t p = index * paths; p < (index + 1) * paths; ++p)
+      sampled += sampler_.sample(eye.vertex[i], light, {tile.pixel_scramble[i], p}, counts.rays);
+    value[i] += sampled / static_cast<float>(paths);
+    if (std::isfinite(value[i].x + value[i].y + value[i].z)) {
+      const glm::dvec3 v(value[i]);
+      tile.sum[i] += v;
+      tile.squares += std::pow((v.x + v.y + v.z) / 3.0, 2);
+    } else {
+      ++counts.non_finite;
+    }
+  }
+}
+
+}  // namespace relight

@@ -1,0 +1,68 @@
+// Renders batches of indirect light samples into per-pixel statistics. Every pixel's numbers depend on seed,
+// place and batch only, and each pixel adds its batches in order: the result is the same for any number of
+// threads.
+//
+// The pixels of a 4x4 tile share their light vertices (packets of shadow rays), so their errors are
+// correlated; different tiles are independent.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "reference/path_sampler.h"
+#include "reference/path_tracer.h"
+
+namespace relight {
+
+// Mean and sum of squared deviations of a pixel's batch means (Welford's update).
+struct PixelStatistics {
+  glm::dvec3 mean{0.0}, squares{0.0};
+  void add(const glm::dvec3& batch_mean, int number_of_batches) {
+    const glm::dvec3 before = batch_mean - mean;
+    mean += before / static_cast<double>(number_of_batches);
+    squares += before * (batch_mean - mean);
+  }
+};
+
+class BatchRenderer {
+ public:
+  BatchRenderer(const PathSampler& sampler, const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                const PathTracerSettings& settings, int samples_per_batch);
+
+  // Traces some samples that count for nothing else, and from their spread chooses how many paths each tile
+  // traces per sample: as many as its standard deviation is times the mean, because that gives the least
+  // noise for the time. (Chosen from the samples themselves, it would bias the result.)
+  void plan(int samples);
+
+  // Tasks a batch; progress advances by one a task.
+  int tasks() const;
+  // Batches must be rendered in order 0, 1, ...
+  void render(int batch, Progress& progress);
+
+  int64_t rays() const { return rays_; }
+  int64_t non_finite() const { return non_finite_; }
+  const std::vector<PixelStatistics>& pixels() const { return pixels_; }
+
+ private:
+  struct Tile;
+  struct Counts {
+    int64_t rays = 0, non_finite = 0;
+  };
+  void render_row(int row, int batch);
+  Tile make_tile(int x0, int y0, uint64_t sequence) const;
+  int& paths_of(int x0, int y0);
+  void render_tile(int x0, int y0, int batch, Counts& counts);
+  void sample_tile(Tile& tile, uint32_t index, Counts& counts) const;
+
+  const PathSampler& sampler_;
+  const RayTracer& tracer_;
+  const DeepFrameBuffer& buffer_;
+  const PathTracerSettings& settings_;
+  int samples_;
+  int tiles_x_, tiles_y_;
+  std::vector<int> paths_;  // a tile: paths from each visible point for each set of light vertices
+  std::vector<PixelStatistics> pixels_;
+  std::atomic<int64_t> rays_{0}, non_finite_{0};
+};
+
+}  // namespace relight

@@ -1,0 +1,47 @@
+// Strategy "light" of the light-vertex estimator (see path_sampler.h): vertices traced from the lights,
+// connected to vertices of eye paths, one by one or to the 16 visible points of a 4x4 tile of pixels at once.
+#pragma once
+
+#include "common/sampling/random.h"
+#include "common/tracing/ray_tracer.h"
+#include "reference/light_sampler.h"
+#include "reference/path_vertex.h"
+
+namespace relight {
+
+// The random numbers of one path: point `index` of one independent Sobol sequence a pair of dimensions.
+struct PathRandom {
+  uint64_t scramble;
+  uint32_t index;
+  glm::vec2 pair(uint64_t dimension) const { return sobol_2d(index, hash_combine(scramble, dimension)); }
+};
+
+// Visible points of a 4x4 tile: packets of shadow rays from them to one light vertex are coherent.
+struct EyeTile {
+  EyeVertex vertex[16];
+  glm::vec3 position[16];  // moved off the surface, as RayTracer::visible16 wants it
+  uint32_t valid = 0;      // bit i: vertex[i] is there
+};
+
+class LightConnector {
+ public:
+  LightConnector(const RayTracer& tracer, const LightSampler& lights, const LightPaths& paths)
+      : tracer_(tracer), lights_(lights), paths_(paths) {}
+
+  // The first surface hit by a ray from a light; invalid if there is none.
+  LightVertex trace(const PathRandom& random, int64_t& rays) const;
+
+  // Light reaching the eye by x - y - light, divided by the sum of densities m p_b + count p_l, where `count`
+  // light vertices are connected to x.
+  glm::vec3 connect(const EyeVertex& x, const LightVertex& y, float count, int64_t& rays) const;
+  // Adds the same for each vertex of a tile to sums[0..15].
+  void connect(const EyeTile& tile, const LightVertex& y, float count, glm::vec3* sums, int64_t& rays) const;
+
+ private:
+  glm::vec3 unshadowed(const EyeVertex& x, const LightVertex& y, float count) const;
+  const RayTracer& tracer_;
+  const LightSampler& lights_;
+  LightPaths paths_;
+};
+
+}  // namespace relight

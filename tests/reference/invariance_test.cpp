@@ -1,0 +1,60 @@
+// Pictures don't depend on the unit of length or the place of the origin.
+#include "tests/reference/render.h"
+
+namespace relight::tiny {
+namespace {
+
+struct Placed {
+  Image direct, indirect;
+};
+
+// The room with its lights, scaled about its centre and moved; intensities scale with area so that radiance
+// stays.
+Placed render_placed(float scale, const glm::vec3& centre) {
+  const Rendering render(room(2.0f * scale, centre, true), 24, 18);
+  const float power = scale * scale;
+  const LightingState lights = lighting(
+      {omni(centre + scale * glm::vec3(0.3f, 0.6f, 0.4f), glm::vec3(power)),
+       spot(centre + scale * glm::vec3(-0.4f, 0.9f, 0.3f), {0.3f, -1.0f, 0.1f}, 15, 25, glm::vec3(power))});
+  const PathTracerResult result =
+      render(lights, settings(Estimator::light_vertex, 64, 2, bounces(1, 2, true)));
+  EXPECT_EQ(result.non_finite, 0);
+  return {result.direct, result.indirect};
+}
+
+double relative_difference(const Image& a, const Image& b) {
+  double difference = 0, norm = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
+    difference += glm::dot(d, d), norm += glm::dot(glm::dvec3(b.pixels[i]), glm::dvec3(b.pixels[i]));
+  }
+  return std::sqrt(difference / norm);
+}
+
+// The random numbers are the same, so only rounding differs: single paths may change sides at an edge, most
+// don't. Red if: an absolute epsilon is used anywhere.
+TEST(Invariance, ScalingTheSceneChangesNothingButRounding) {
+  const Placed original = render_placed(1.0f, glm::vec3(0.0f));
+  for (float scale : {1e-3f, 1e3f}) {
+    const Placed scaled = render_placed(scale, glm::vec3(0.0f));
+    EXPECT_LT(relative_difference(scaled.direct, original.direct), 1e-3) << scale;
+    EXPECT_LT(relative_difference(scaled.indirect, original.indirect), 5e-3) << scale;
+  }
+  // Powers of two change no bit of a mantissa.
+  const Placed doubled = render_placed(1024.0f, glm::vec3(0.0f));
+  EXPECT_LT(relative_difference(doubled.indirect, original.indirect), 1e-3);
+}
+
+// A hundred diagonals away floats resolve 1e-5 of the room. Red if: the ray offset doesn't grow with the
+// coordinates (surfaces would shadow themselves and the picture darken by more than these bounds).
+TEST(Invariance, MovingTheSceneAHundredDiagonalsStaysWithinItsBound) {
+  const Placed original = render_placed(1.0f, glm::vec3(0.0f));
+  const Placed moved = render_placed(1.0f, glm::vec3(346.0f, -200.0f, 290.0f));
+  EXPECT_LT(relative_difference(moved.direct, original.direct), 0.02);
+  EXPECT_LT(relative_difference(moved.indirect, original.indirect), 0.05);
+  EXPECT_NEAR(mean_of(moved.direct).x / mean_of(original.direct).x, 1.0, 0.003);
+  EXPECT_NEAR(mean_of(moved.indirect).x / mean_of(original.indirect).x, 1.0, 0.005);
+}
+
+}  // namespace
+}  // namespace relight::tiny

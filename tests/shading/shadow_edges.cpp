@@ -1,0 +1,56 @@
+#include "tests/shading/shadow_edges.h"
+
+#include <cmath>
+
+#include "common/brdf/brdf.h"
+#include "common/shading/light_frame.h"
+#include "common/tracing/ray_tracer.h"
+
+namespace relight::test {
+namespace {
+
+bool lit_side(const SurfaceSample& s, const shader::LightParams& light) {
+  return s.valid &&
+         shader::light_irradiance(light, s.position, s.shading_normal, s.geometric_normal) != glm::vec3(0.0f);
+}
+
+// All points around s see the light if s does, or none. In double: the points must stay on the plane of s
+// even if the light is far away.
+bool all_alike(const RayTracer& tracer, const SurfaceSample& s, const glm::vec3& light, float unit_texel) {
+  const bool here = tracer.visible_from_point(s.position, s.geometric_normal, light);
+  const glm::dvec3 n(s.geometric_normal), from_light = glm::dvec3(s.position) - glm::dvec3(light);
+  const double distance = glm::length(from_light);
+  const glm::dmat3 frame(frame_around(glm::vec3(from_light / distance)));
+  for (const double texels : {0.5, 1.0, 1.5}) {
+    for (int k = 0; k < 8; ++k) {
+      const double angle = glm::radians(45.0 * k);
+      const glm::dvec3 across = frame[0] * std::cos(angle) + frame[1] * std::sin(angle);
+      const glm::dvec3 moved = from_light + across * (texels * double{unit_texel} * distance);
+      const double scale = glm::dot(n, from_light) / glm::dot(n, moved);
+      if (!(scale > 0.0 && scale < 4.0)) return false;  // the texel runs off along the surface
+      const glm::vec3 point(glm::dvec3(s.position) + (moved * scale - from_light));
+      if (tracer.visible_from_point(point, s.geometric_normal, light) != here) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+float texel_at_unit_depth(const Light& light, int map_size) {
+  return 2.0f * light_frame(light, 1.0f, map_size).tan_half / static_cast<float>(map_size);
+}
+
+std::vector<uint8_t> away_from_shadow_edges(const RayTracer& tracer,
+                                            const std::vector<SurfaceSample>& samples, const Light& light,
+                                            int map_size) {
+  const shader::LightParams params = light.params();
+  const float texel = texel_at_unit_depth(light, map_size);
+  std::vector<uint8_t> away(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    away[i] = !lit_side(samples[i], params) || all_alike(tracer, samples[i], light.position, texel);
+  }
+  return away;
+}
+
+}  // namespace relight::test
