@@ -5,6 +5,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 
+#include "common/scene/topology.h"
+
 namespace relight {
 
 namespace {
@@ -35,6 +37,8 @@ std::vector<TriangleFault> find_triangle_faults(const std::vector<glm::vec3>& po
   std::vector<Kernel::Point_3> points;
   points.reserve(positions.size());
   for (const glm::vec3& p : positions) points.emplace_back(p.x, p.y, p.z);
+  // Hashed here rather than merged by CGAL: a third of the repair time of a mesh with a million vertices.
+  const std::vector<uint32_t> welded = weld_positions(positions);
   std::vector<TriangleFault> faults(triangles.size(), TriangleFault::none);
   std::vector<SoupTriangle> soup;
   for (size_t t = 0; t < triangles.size(); ++t) {
@@ -44,12 +48,11 @@ std::vector<TriangleFault> find_triangle_faults(const std::vector<glm::vec3>& po
       continue;
     }
     SoupTriangle polygon;
-    for (size_t k = 0; k < 3; ++k) polygon[k] = v[k];
+    for (size_t k = 0; k < 3; ++k) polygon[k] = welded[v[k]];
     polygon.source = t;
     soup.push_back(polygon);
     faults[t] = TriangleFault::duplicate;  // until it is found among the survivors
   }
-  pmp::merge_duplicate_points_in_polygon_soup(points, soup);
   pmp::merge_duplicate_polygons_in_polygon_soup(points, soup);
   for (const SoupTriangle& survivor : soup) faults[survivor.source] = TriangleFault::none;
   return faults;

@@ -25,6 +25,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenFile{"bad_index.ply", {"bad_index.ply", "face 0", "vertex index 7", "3 vertices"}},
         BrokenFile{"negative_index.ply", {"negative_index.ply", "face 0", "vertex index", "3 vertices"}},
         BrokenFile{"not_a_mesh.ply", {"not_a_mesh.ply", "magic number"}},
+        BrokenFile{"header_without_end.ply", {"header_without_end.ply", "truncated", "end_header"}},
         BrokenFile{"truncated_vertices.ply",
                    {"truncated_vertices.ply", "truncated", "4 of element 'vertex'", "after 1"}},
         BrokenFile{"truncated_faces.ply",

@@ -119,6 +119,10 @@ class BinaryBody {
 
 void require_complete_ply(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
+  std::string magic(3, ' ');
+  in.read(magic.data(), 3);
+  if (magic != "ply" && magic != "PLY")
+    fail("{}: not a PLY file: it does not begin with the magic number 'ply'", file.string());
   const Header header = read_header(in);
   // Assimp would look for it for ever.
   if (!header.ended) fail("{}: the file is truncated: its header has no end_header", file.string());
