@@ -28,9 +28,9 @@ struct DeepFrameBuffer {
 // Casts the camera rays. Deterministic; parallel over rows.
 DeepFrameBuffer make_deep_frame_buffer(const Scene& scene, const RayTracer& tracer, const View& view);
 
-// Marks pixels whose 3x3 neighbourhood or own 2x2 sub-samples hold a depth or normal discontinuity, or both hits
-// and misses. Depth: distance of a neighbour from the sample's tangent plane > `depth_tolerance` x its eye distance;
-// normal: cosine of geometric normals < `normal_cosine`.
+// Marks pixels whose 3x3 neighbourhood or own 2x2 sub-samples hold a depth or normal discontinuity, or both
+// hits and misses. Depth: distance of a neighbour from the sample's tangent plane > `depth_tolerance` x its
+// eye distance; normal: cosine of geometric normals < `normal_cosine`.
 std::vector<uint8_t> edge_mask(const DeepFrameBuffer& buffer, float depth_tolerance = 0.02f,
                                float normal_cosine = 0.9f);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
+#include <tuple>
 
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
@@ -17,31 +17,13 @@ namespace {
 constexpr uint64_t stream = 0x6a74e2ull;
 constexpr size_t parallel_grain = 4096;  // smaller subsets are not worth a task
 
-// One live side of a triangle.
-struct Side {
-  uint32_t triangle;
-  bool flipped;  // the side away from the area normal
-  float area;
-  glm::vec3 centroid;
-};
-
-std::vector<Side> collect_sides(const Scene& scene, const LiveSides& live) {
-  std::vector<Side> sides;
-  for (size_t t = 0; t < scene.triangles.size(); ++t) {
-    const Triangle& tri = scene.triangles[t];
-    const float area = 0.5f * glm::length(scene.area_normal(t));
-    if (!(area > 0.0f)) continue;
-    const glm::vec3 centroid =
-        (scene.positions[tri.v[0]] + scene.positions[tri.v[1]] + scene.positions[tri.v[2]]) / 3.0f;
-    if (live.sides[t] & 1) sides.push_back({static_cast<uint32_t>(t), false, area, centroid});
-    if (live.sides[t] & 2) sides.push_back({static_cast<uint32_t>(t), true, area, centroid});
-  }
-  return sides;
+double weight_of(const SurfacePiece& p) {
+  return static_cast<double>(p.area) * static_cast<double>(p.importance);
 }
 
-double total_area(std::span<const Side> sides) {
+double total_weight(std::span<const SurfacePiece> pieces) {
   double sum = 0.0;
-  for (const Side& s : sides) sum += s.area;
+  for (const SurfacePiece& p : pieces) sum += weight_of(p);
   return sum;
 }
 
@@ -50,24 +32,26 @@ class Sampler {
   Sampler(const RayTracer& tracer, uint64_t seed, GatherCloud& cloud)
       : tracer_(tracer), seed_(seed), cloud_(cloud) {}
 
-  // Samples `sides` into cloud[first, first + budget).
-  void sample(std::span<Side> sides, int64_t budget, int64_t first) {
-    if (sides.size() == 1) return sample_one_side(sides[0], budget, first);
-    const double area = total_area(sides);
+  // Samples `pieces` into cloud[first, first + budget).
+  void sample(std::span<SurfacePiece> pieces, int64_t budget, int64_t first) {
+    if (pieces.size() == 1) return sample_one_piece(pieces[0], budget, first);
+    const double weight = total_weight(pieces);
     if (budget == 1) {
-      const Side& side = pick_by_area(sides, area, first);
-      place(side, glm::vec2(random(first, 1), random(first, 2)), first, area);
+      const SurfacePiece& piece = pick_by_weight(pieces, weight, first);
+      // Picked with probability weight_of(piece) / weight: stands for its area by that share.
+      place(piece, glm::vec2(random(first, 1), random(first, 2)), first,
+            weight / static_cast<double>(piece.importance));
       return;
     }
-    const size_t middle = split_by_area(sides, area);
-    const double left_area = total_area(sides.first(middle));
-    const auto share = static_cast<int64_t>(std::llround(static_cast<double>(budget) * left_area / area));
+    const size_t middle = split_by_weight(pieces, weight);
+    const double left_weight = total_weight(pieces.first(middle));
+    const auto share = static_cast<int64_t>(std::llround(static_cast<double>(budget) * left_weight / weight));
     const int64_t left_budget = std::clamp<int64_t>(share, 1, budget - 1);
-    const auto left = [&, this] { sample(sides.first(middle), left_budget, first); };
+    const auto left = [&, this] { sample(pieces.first(middle), left_budget, first); };
     const auto right = [&, this] {
-      sample(sides.subspan(middle), budget - left_budget, first + left_budget);
+      sample(pieces.subspan(middle), budget - left_budget, first + left_budget);
     };
-    if (sides.size() > parallel_grain)
+    if (pieces.size() > parallel_grain)
       tbb::parallel_invoke(left, right);
     else
       left(), right();
@@ -78,51 +62,55 @@ class Sampler {
     return random_float(seed_, stream, static_cast<uint64_t>(index), dimension);
   }
 
-  void sample_one_side(const Side& side, int64_t budget, int64_t first) {
-    const uint64_t scramble = random_bits(seed_, stream, side.triangle, side.flipped ? 4 : 3);
+  void sample_one_piece(const SurfacePiece& piece, int64_t budget, int64_t first) {
+    const uint64_t scramble = random_bits(seed_, stream, static_cast<uint64_t>(first), 3);
     for (int64_t i = 0; i < budget; ++i)
-      place(side, sobol_2d(static_cast<uint32_t>(i), scramble), first + i,
-            static_cast<double>(side.area) / static_cast<double>(budget));
+      place(piece, sobol_2d(static_cast<uint32_t>(i), scramble), first + i,
+            static_cast<double>(piece.area) / static_cast<double>(budget));
   }
 
-  const Side& pick_by_area(std::span<const Side> sides, double area, int64_t index) const {
-    double target = static_cast<double>(random(index, 0)) * area;
-    for (const Side& s : sides) {
-      target -= s.area;
-      if (target < 0.0) return s;
+  const SurfacePiece& pick_by_weight(std::span<const SurfacePiece> pieces, double weight,
+                                     int64_t index) const {
+    double target = static_cast<double>(random(index, 0)) * weight;
+    for (const SurfacePiece& p : pieces) {
+      target -= weight_of(p);
+      if (target < 0.0) return p;
     }
-    return sides.back();
+    return pieces.back();
   }
 
-  // Sorts along the longest axis of the centroids; returns the index that halves the area (1 .. size - 1).
-  static size_t split_by_area(std::span<Side> sides, double area) {
+  // Sorts along the longest axis of the centroids; returns the index that halves the weight (1 .. size - 1).
+  static size_t split_by_weight(std::span<SurfacePiece> pieces, double weight) {
     Bounds box;
-    for (const Side& s : sides) box.add(s.centroid);
+    for (const SurfacePiece& p : pieces) box.add(p.centroid);
     const glm::vec3 extent = box.hi - box.lo;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const auto less = [axis](const Side& a, const Side& b) {
-      return std::tie(a.centroid[axis], a.triangle, a.flipped) <
-             std::tie(b.centroid[axis], b.triangle, b.flipped);
+    // A total order, so that the result does not depend on the sorting algorithm's threads.
+    const auto key = [axis](const SurfacePiece& p) {
+      return std::tuple(p.centroid[axis], p.triangle, p.corner[0].x, p.corner[0].y, p.corner[1].x,
+                        p.corner[1].y, p.flipped);
     };
-    if (sides.size() > parallel_grain)
-      tbb::parallel_sort(sides.begin(), sides.end(), less);
+    const auto less = [&key](const SurfacePiece& a, const SurfacePiece& b) { return key(a) < key(b); };
+    if (pieces.size() > parallel_grain)
+      tbb::parallel_sort(pieces.begin(), pieces.end(), less);
     else
-      std::sort(sides.begin(), sides.end(), less);
+      std::sort(pieces.begin(), pieces.end(), less);
     double sum = 0.0;
     size_t middle = 0;
-    while (middle < sides.size() - 1 && sum + 0.5 * sides[middle].area < 0.5 * area)
-      sum += sides[middle++].area;
+    while (middle < pieces.size() - 1 && sum + 0.5 * weight_of(pieces[middle]) < 0.5 * weight)
+      sum += weight_of(pieces[middle++]);
     return std::max<size_t>(middle, 1);
   }
 
-  void place(const Side& side, const glm::vec2& u, int64_t index, double area) {
-    // Area-preserving map of the unit square to barycentrics.
-    const float root = std::sqrt(u.x);
-    const Hit hit{
-        .triangle = side.triangle, .t = 0.0f, .u = root * (1.0f - u.y), .v = root * u.y, .valid = true};
-    const glm::vec3 normal = tracer_.scene().area_normal(side.triangle);
+  void place(const SurfacePiece& piece, const glm::vec2& u, int64_t index, double area) {
+    // Area-preserving map of the unit square to a triangle.
+    const float root = std::sqrt(u.x), b = root * (1.0f - u.y), c = root * u.y;
+    const glm::vec2 uv =
+        piece.corner[0] + b * (piece.corner[1] - piece.corner[0]) + c * (piece.corner[2] - piece.corner[0]);
+    const Hit hit{.triangle = piece.triangle, .t = 0.0f, .u = uv.x, .v = uv.y, .valid = true};
+    const glm::vec3 normal = tracer_.scene().area_normal(piece.triangle);
     const auto i = static_cast<size_t>(index);
-    cloud_.samples[i] = tracer_.surface(hit, side.flipped ? normal : -normal);
+    cloud_.samples[i] = tracer_.surface(hit, piece.flipped ? normal : -normal);
     cloud_.area[i] = static_cast<float>(area);
   }
 
@@ -131,18 +119,42 @@ class Sampler {
   GatherCloud& cloud_;
 };
 
+// A million particles give a bin of average importance some hundred hits at 65,536 samples (see
+// `samples_a_cell`).
+constexpr int64_t particles = 1 << 20;
+// A cell is large enough for this many samples of a uniform cloud: small enough to follow visibility, large
+// enough to count.
+constexpr double samples_a_cell = 8.0;
+// No sample stands for more than 1/least times the area of an average one: rarely seen places may still be
+// lit strongly.
+constexpr float least_importance = 0.05f;
+
 }  // namespace
 
-GatherCloud make_uniform_gather_cloud(const RayTracer& tracer, const LiveSides& live, int64_t budget,
-                                      uint64_t seed) {
-  std::vector<Side> sides = collect_sides(tracer.scene(), live);
-  if (sides.empty()) fail("gather cloud: scene '{}' has no surface with an area", tracer.scene().name);
+GatherCloud make_gather_cloud(const RayTracer& tracer, std::vector<SurfacePiece>& pieces, int64_t budget,
+                              uint64_t seed) {
   if (budget < 1) fail("gather cloud: {} samples asked for, at least 1 needed", budget);
+  if (pieces.empty() || !(total_weight(pieces) > 0.0))
+    fail("gather cloud: scene '{}' has no surface with an area", tracer.scene().name);
   GatherCloud cloud;
   cloud.samples.resize(static_cast<size_t>(budget));
   cloud.area.resize(static_cast<size_t>(budget));
-  Sampler(tracer, seed, cloud).sample(sides, budget, 0);
+  Sampler(tracer, seed, cloud).sample(pieces, budget, 0);
   return cloud;
+}
+
+GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                                       CloudSampling sampling, int bounces, int64_t budget, uint64_t seed) {
+  const Scene& scene = tracer.scene();
+  double surface = 0.0;
+  for (size_t t = 0; t < scene.triangles.size(); ++t)
+    surface += 0.5 * glm::length(glm::dvec3(scene.area_normal(t)));
+  if (!(surface > 0.0)) fail("gather cloud: scene '{}' has no surface with an area", scene.name);
+  const double cell_area = samples_a_cell * surface / static_cast<double>(budget);
+  std::vector<SurfacePiece> pieces = cut_surfaces(scene, 0.25 * cell_area);
+  const ImportanceMap map(tracer, buffer, bounces, particles, static_cast<float>(std::sqrt(cell_area)), seed);
+  apply_importance(pieces, map, least_importance, sampling == CloudSampling::uniform);
+  return make_gather_cloud(tracer, pieces, budget, seed);
 }
 
 }  // namespace relight

@@ -1,5 +1,5 @@
-// Counter-based random numbers and low-discrepancy points: pure functions of their arguments, so that results do
-// not depend on the number of threads or the order of work.
+// Counter-based random numbers and low-discrepancy points: pure functions of their arguments, so that results
+// do not depend on the number of threads or the order of work.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ inline uint64_t hash_combine(uint64_t a, uint64_t b) { return mix64(a + 0x9e3779
 
 // Random bits as a function of (seed, stream, index, dimension).
 inline uint64_t random_bits(uint64_t seed, uint64_t stream, uint64_t index, uint64_t dimension) {
-  return hash_combine(hash_combine(hash_combine(mix64(seed + 0x632be59bd9b4e019ull), stream), index), dimension);
+  return hash_combine(hash_combine(hash_combine(mix64(seed + 0x632be59bd9b4e019ull), stream), index),
+                      dimension);
 }
 
 // In [0,1): 24 bits, so that the float can never round up to 1.
@@ -29,9 +30,9 @@ inline float random_float(uint64_t seed, uint64_t stream, uint64_t index, uint64
   return to_unit_float(random_bits(seed, stream, index, dimension));
 }
 
-// Point `index` of an Owen-scrambled Sobol (0,2)-sequence in [0,1)^2, with its order shuffled; `scramble` selects
-// the scrambling and the shuffle, so use a different one for every pair of dimensions, pixel and batch
-// (Burley, "Practical Hash-based Owen Scrambling", JCGT 2020).
+// Point `index` of an Owen-scrambled Sobol (0,2)-sequence in [0,1)^2, with its order shuffled; `scramble`
+// selects the scrambling and the shuffle, so use a different one for every pair of dimensions, pixel and
+// batch (Burley, "Practical Hash-based Owen Scrambling", JCGT 2020).
 glm::vec2 sobol_2d(uint32_t index, uint64_t scramble);
 
 }  // namespace relight

@@ -59,6 +59,31 @@ EdgeReport examine_edges(const std::vector<uint32_t>& welded, const std::vector<
   return report;
 }
 
+std::vector<uint32_t> connected_components(const std::vector<uint32_t>& welded,
+                                           const std::vector<Triangle>& triangles) {
+  // Union-find over welded vertices.
+  std::vector<uint32_t> parent = welded;
+  const auto find = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  const auto join = [&](uint32_t a, uint32_t b) {
+    a = find(a), b = find(b);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (const Triangle& t : triangles) join(t.v[0], t.v[1]), join(t.v[0], t.v[2]);
+
+  constexpr uint32_t none = UINT32_MAX;
+  std::vector<uint32_t> number(parent.size(), none), component(triangles.size());
+  uint32_t next = 0;
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    uint32_t& k = number[find(triangles[t].v[0])];
+    if (k == none) k = next++;
+    component[t] = k;
+  }
+  return component;
+}
+
 double signed_volume(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles) {
   if (triangles.empty()) return 0.0;
   // About a vertex of the mesh rather than the origin: no cancellation for a small mesh far away.

@@ -23,6 +23,10 @@ struct EdgeReport {
 };
 EdgeReport examine_edges(const std::vector<uint32_t>& welded, const std::vector<Triangle>& triangles);
 
+// Connected part of each triangle, numbered from 0 in order of their first triangles.
+std::vector<uint32_t> connected_components(const std::vector<uint32_t>& welded,
+                                           const std::vector<Triangle>& triangles);
+
 // Volume enclosed by a closed mesh [scene units^3]; positive if its triangles face outward (divergence
 // theorem).
 double signed_volume(const std::vector<glm::vec3>& positions, const std::vector<Triangle>& triangles);

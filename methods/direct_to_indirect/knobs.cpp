@@ -9,6 +9,8 @@ KnobTable knob_table() {
   return {
       {"gather_samples", integer, precompute, "65536", 1024, 1048576, {}, "gather_cloud",
        "Number of gather samples; a power of four (paper: 65,536)."},
+      {"cloud", choice, precompute, "importance", 0, 0, {"uniform", "importance"}, "gather_cloud",
+       "Gather samples spread evenly over the surfaces that the view can gather from, or by importance (paper: large scenes)."},
       {"hierarchy_k", real, precompute, "20", 0, 1000, {}, "hierarchy",
        "Weight K of positions against normals in the split distance of equation 9 (paper: 20 to 40; GPU Gems: 20)."},
       {"link_threshold", real, precompute, "0.01", 0, 100, {}, "final_gather",

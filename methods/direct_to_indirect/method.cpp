@@ -7,7 +7,7 @@
 #include "common/linalg/sparse_product_gpu.h"
 #include "common/run/artefact_cache.h"
 #include "common/run/error.h"
-#include "common/sampling/live_sides.h"
+#include "common/sampling/gather_cloud.h"
 #include "common/shading/direct_lighting.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
@@ -27,10 +27,10 @@ Artefact precompute(const PrepareContext& context) {
   Artefact artefact;
   {
     StageTimer timer(context.log, "gather_cloud");
-    const LiveSides live = find_live_sides(context.tracer, context.buffer, context.seed);
-    context.log.count("dead_side_area_ppm", static_cast<int64_t>(1e6 * live.dropped_area_share));
-    artefact.cloud =
-        make_uniform_gather_cloud(context.tracer, live, knobs.integer("gather_samples"), context.seed);
+    const CloudSampling sampling =
+        knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
+    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, sampling, 1,
+                                                knobs.integer("gather_samples"), context.seed);
   }
   GatherHierarchy hierarchy;
   {

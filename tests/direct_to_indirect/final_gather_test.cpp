@@ -21,7 +21,8 @@ std::vector<double> oracle_row(const GatherSetup& s, const SurfaceSample& v, dou
     const SurfaceSample& g = s.cloud.samples[j];
     const glm::dvec3 w = glm::dvec3(g.position) - glm::dvec3(v.position);
     const double r2 = glm::dot(w, w);
-    const double cv = glm::dot(glm::dvec3(v.shading_normal), w), cg = -glm::dot(glm::dvec3(g.geometric_normal), w);
+    const double cv = glm::dot(glm::dvec3(v.shading_normal), w),
+                 cg = -glm::dot(glm::dvec3(g.geometric_normal), w);
     if (!(r2 > 0.0) || cv <= 0.0 || cg <= 0.0 || glm::dot(glm::dvec3(v.geometric_normal), w) <= 0.0) continue;
     if (!s.tracer.visible(v.position, v.geometric_normal, g.position, g.geometric_normal)) continue;
     row[j] = std::min(clamp, cv * cg * static_cast<double>(s.cloud.area[j]) / (std::numbers::pi * r2 * r2));
@@ -44,8 +45,9 @@ double worst_difference(GatherSetup& s, const FinalGatherSettings& settings, dou
   return worst;
 }
 
-// All links to single samples, nothing truncated: the tree-transformed row is the Haar transform of the dense row.
-// Red if a cull drops a visible sample, a detail has the wrong sign or index, or a lane takes its neighbour's value.
+// All links to single samples, nothing truncated: the tree-transformed row is the Haar transform of the dense
+// row. Red if a cull drops a visible sample, a detail has the wrong sign or index, or a lane takes its
+// neighbour's value.
 TEST(FinalGather, UntruncatedRowsEqualTheBruteForceOracle) {
   GatherSetup s(tiny::room(), 20, 15, 1024, true);  // 15 rows: the last tile row is incomplete
   // Float F (some 10 roundings) and five levels of float Haar.
@@ -84,8 +86,8 @@ TEST(FinalGather, KeepsTheCoefficientsWithTheLargestAreaWeightedSize) {
   }
 }
 
-// Links to clusters approximate the row; its sum (the share of the hemisphere that is covered) must stay close, and
-// fewer rays must be needed. Red if a link forgets the cluster's size.
+// Links to clusters approximate the row; its sum (the share of the hemisphere that is covered) must stay
+// close, and fewer rays must be needed. Red if a link forgets the cluster's size.
 TEST(FinalGather, ClusterLinksKeepTheSumOfTheRow) {
   GatherSetup s(tiny::room(), 16, 12, 4096);
   FinalGatherSettings settings = exact_settings(4096);

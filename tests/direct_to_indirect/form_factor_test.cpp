@@ -1,6 +1,6 @@
-// Sums of final-gather rows against analytic form factors (Howell, A Catalog of Radiation Heat Transfer Configuration
-// Factors): from a differential element to a parallel rectangle (B-3), a perpendicular rectangle (B-4) and a coaxial
-// parallel disc (B-12).
+// Sums of final-gather rows against analytic form factors (Howell, A Catalog of Radiation Heat Transfer
+// Configuration Factors): from a differential element to a parallel rectangle (B-3), a perpendicular
+// rectangle (B-4) and a coaxial parallel disc (B-12).
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int64_t samples = 16384;
 
-// Sum of row 0 = scaling coefficient x sqrt(columns): the form factor from the view sample to everything it sees.
+// Sum of row 0 = scaling coefficient x sqrt(columns): the form factor from the view sample to everything it
+// sees.
 double row_sum(Scene scene, const SurfaceSample& element) {
   finish_scene(scene);
   GatherSetup s(std::move(scene), 4, 4, samples, true);
@@ -32,7 +33,8 @@ SurfaceSample element(const glm::vec3& position, const glm::vec3& normal) {
   return s;
 }
 
-// Half of the samples lie on the back of the target, so 8192 points integrate a smooth function: error well below 1 %.
+// Half of the samples lie on the back of the target, so 8192 points integrate a smooth function: error well
+// below 1 %.
 constexpr double tolerance = 2e-3;
 
 // Red if cos/(pi r^2) loses a factor, or areas are not split between the sides.
@@ -44,7 +46,9 @@ TEST(FormFactor, OfAParallelRectangleAboveItsCorner) {
                             (2 * pi);
     Scene scene = tiny::empty_scene();
     tiny::add_quad(scene, {0, 0, 0}, {2, 0, 0}, {0, 0, 1});
-    EXPECT_NEAR(row_sum(scene, element({0, static_cast<float>(h), 0}, {0, -1, 0})), expected, tolerance * expected) << h;
+    EXPECT_NEAR(row_sum(scene, element({0, static_cast<float>(h), 0}, {0, -1, 0})), expected,
+                tolerance * expected)
+        << h;
   }
 }
 
@@ -54,10 +58,13 @@ TEST(FormFactor, OfAPerpendicularRectangle) {
     const double width = 2.0, height = 1.5;
     const double x = height / width, y = c / width;
     const double expected =
-        (std::atan(1.0 / y) - y / std::sqrt(x * x + y * y) * std::atan(1.0 / std::sqrt(x * x + y * y))) / (2 * pi);
+        (std::atan(1.0 / y) - y / std::sqrt(x * x + y * y) * std::atan(1.0 / std::sqrt(x * x + y * y))) /
+        (2 * pi);
     Scene scene = tiny::empty_scene();
     tiny::add_quad(scene, {0, 0, 0}, {2, 0, 0}, {0, 1.5f, 0});  // in the plane z = 0
-    EXPECT_NEAR(row_sum(scene, element({0, 0, static_cast<float>(c)}, {0, 1, 0})), expected, tolerance * expected) << c;
+    EXPECT_NEAR(row_sum(scene, element({0, 0, static_cast<float>(c)}, {0, 1, 0})), expected,
+                tolerance * expected)
+        << c;
   }
 }
 
@@ -71,10 +78,13 @@ TEST(FormFactor, OfACoaxialDisc) {
     const double phi = 2 * pi * i / n;
     tiny::add_vertex(scene, {radius * std::cos(phi), 0, radius * std::sin(phi)}, {0, 1, 0});
   }
-  for (uint32_t i = 0; i < static_cast<uint32_t>(n); ++i) tiny::add_triangle(scene, centre, centre + i + 2, centre + i + 1);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(n); ++i)
+    tiny::add_triangle(scene, centre, centre + i + 2, centre + i + 1);
   for (const double h : {0.7, 2.0}) {
     const double expected = 1.0 / (1.0 + h * h);
-    EXPECT_NEAR(row_sum(scene, element({0, static_cast<float>(h), 0}, {0, -1, 0})), expected, tolerance * expected) << h;
+    EXPECT_NEAR(row_sum(scene, element({0, static_cast<float>(h), 0}, {0, -1, 0})), expected,
+                tolerance * expected)
+        << h;
   }
 }
 

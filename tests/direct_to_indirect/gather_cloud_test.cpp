@@ -1,4 +1,4 @@
-// The uniform gather cloud and the choice of live sides.
+// The gather cloud: budget, areas, importances, sides.
 #include "common/sampling/gather_cloud.h"
 
 #include <cmath>
@@ -8,14 +8,22 @@
 
 #include "common/run/error.h"
 #include "common/run/thread_limit.h"
+#include "common/sampling/random.h"
 #include "tests/support/tiny_scenes.h"
 
 namespace relight {
 namespace {
 
+// Evenly over both sides of everything.
+GatherCloud even_cloud(const RayTracer& tracer, int64_t budget) {
+  std::vector<SurfacePiece> pieces = cut_surfaces(tracer.scene(), 1e30);
+  return make_gather_cloud(tracer, pieces, budget, 3);
+}
+
 double side_area(const Scene& scene) {
   double sum = 0.0;
-  for (size_t t = 0; t < scene.triangles.size(); ++t) sum += 0.5 * glm::length(glm::dvec3(scene.area_normal(t)));
+  for (size_t t = 0; t < scene.triangles.size(); ++t)
+    sum += 0.5 * glm::length(glm::dvec3(scene.area_normal(t)));
   return sum;
 }
 
@@ -24,7 +32,7 @@ TEST(GatherCloud, HasExactlyTheBudgetAndItsAreasSumToTheSurface) {
   const Scene scene = tiny::room();
   const RayTracer tracer(scene);
   for (const int64_t budget : {1, 2, 7, 64, 4096}) {
-    const GatherCloud cloud = make_uniform_gather_cloud(tracer, all_sides_live(scene), budget, 3);
+    const GatherCloud cloud = even_cloud(tracer, budget);
     ASSERT_EQ(cloud.samples.size(), static_cast<size_t>(budget));
     double sum = 0.0;
     for (const float a : cloud.area) sum += a;
@@ -39,7 +47,7 @@ TEST(GatherCloud, CountsAreProportionalToArea) {
   tiny::add_quad(scene, {0, 0, 0}, {3, 0, 0}, {0, 0, 1});
   finish_scene(scene);
   const RayTracer tracer(scene);
-  const GatherCloud cloud = make_uniform_gather_cloud(tracer, all_sides_live(scene), 4096, 3);
+  const GatherCloud cloud = even_cloud(tracer, 4096);
   // 12 strips in x: 341.3 samples expected each; a stratified sequence stays within a few per cent.
   std::map<int, int> strips;
   for (const SurfaceSample& s : cloud.samples) ++strips[static_cast<int>(s.position.x * 4.0f)];
@@ -53,7 +61,7 @@ TEST(GatherCloud, SurvivesTwoTrianglesOfAreaRatio1e12) {
   tiny::add_quad(scene, {5, 0, 0}, {1e-6f, 0, 0}, {0, 0, 1e-6f});
   finish_scene(scene);
   const RayTracer tracer(scene);
-  const GatherCloud cloud = make_uniform_gather_cloud(tracer, all_sides_live(scene), 1024, 3);
+  const GatherCloud cloud = even_cloud(tracer, 1024);
   int tiny_samples = 0;
   double tiny_area = 0.0;
   for (size_t i = 0; i < cloud.samples.size(); ++i)
@@ -63,13 +71,10 @@ TEST(GatherCloud, SurvivesTwoTrianglesOfAreaRatio1e12) {
 }
 
 TEST(GatherCloud, RefusesASceneWithoutArea) {
-  Scene scene = tiny::empty_scene();
-  tiny::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {0, 0, 1});
-  finish_scene(scene);
+  const Scene scene = tiny::room();
   const RayTracer tracer(scene);
-  LiveSides none;
-  none.sides.assign(scene.triangles.size(), 0);
-  EXPECT_THROW(make_uniform_gather_cloud(tracer, none, 16, 1), Error);
+  std::vector<SurfacePiece> none;
+  EXPECT_THROW(make_gather_cloud(tracer, none, 16, 1), Error);
 }
 
 // Red if a parallel sort or task depends on timing.
@@ -79,7 +84,7 @@ TEST(GatherCloud, HasTheSameBitsForOneAndTwoThreads) {
   std::vector<GatherCloud> clouds;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    clouds.push_back(make_uniform_gather_cloud(tracer, all_sides_live(scene), 1024, 3));
+    clouds.push_back(even_cloud(tracer, 1024));
   }
   for (size_t i = 0; i < 1024; ++i) {
     EXPECT_EQ(clouds[0].samples[i].position, clouds[1].samples[i].position);
@@ -87,23 +92,78 @@ TEST(GatherCloud, HasTheSameBitsForOneAndTwoThreads) {
   }
 }
 
-// Red if sides are counted by the wrong sign: then the inside of the block would live and its outside would not.
-TEST(LiveSides, KeepTheOutsideOfASolidAndDropItsInside) {
+// Red if a piece is lost when cut, or cut along the wrong edge for ever.
+TEST(SurfacePieces, CuttingKeepsTheAreaAndBoundsEachPiece) {
+  const Scene scene = tiny::room();
+  double sum = 0.0;
+  for (const SurfacePiece& p : cut_surfaces(scene, 0.01)) {
+    EXPECT_LE(p.area, 0.01f);
+    sum += p.area;
+  }
+  EXPECT_NEAR(sum, 2.0 * side_area(scene), 1e-5 * sum);
+}
+
+// Whatever the importances, sum f x area must estimate the integral of f. Red if a picked piece stands for
+// the area of its set instead of weight / importance.
+TEST(GatherCloud, EstimatesIntegralsWithoutBiasWhateverTheImportances) {
+  const Scene scene = tiny::room();
+  const RayTracer tracer(scene);
+  std::vector<SurfacePiece> pieces = cut_surfaces(scene, 0.002);
+  for (size_t i = 0; i < pieces.size(); ++i) pieces[i].importance = 0.05f + 3.0f * random_float(8, 0, i, 0);
+  double exact = 0.0;  // of f = 1 + x^2, by centroids of the small pieces
+  for (const SurfacePiece& p : pieces) exact += p.area * (1.0 + p.centroid.x * p.centroid.x);
+  double mean = 0.0;
+  for (uint64_t seed = 0; seed < 32; ++seed) {
+    const GatherCloud cloud = make_gather_cloud(tracer, pieces, 1024, seed);
+    for (size_t i = 0; i < cloud.samples.size(); ++i) {
+      const double x = cloud.samples[i].position.x;
+      mean += cloud.area[i] * (1.0 + x * x) / 32.0;
+    }
+  }
+  EXPECT_NEAR(mean, exact, 0.005 * exact);
+}
+
+// Red if sides are told apart by the wrong sign: then the inside of the block would get samples and its
+// outside would not.
+TEST(GatherCloudForView, LeavesTheInsideOfASolidAlone) {
   const Scene scene = tiny::room();
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
-  const LiveSides live = find_live_sides(tracer, buffer, 1);
-  int block = 0;
-  for (size_t t = 0; t < scene.triangles.size(); ++t) {
-    const glm::vec3 n = glm::normalize(scene.area_normal(t));
-    if (t < 10) continue;  // walls: open sheets
-    ++block;
-    // The block's own bottom lies on the floor and may be dead on both sides.
-    if (std::abs(n.y) < 0.5f) {
-      EXPECT_EQ(live.sides[t], 1) << "triangle " << t;
+  for (const CloudSampling sampling : {CloudSampling::uniform, CloudSampling::importance}) {
+    const GatherCloud cloud = make_gather_cloud_for_view(tracer, buffer, sampling, 1, 4096, 1);
+    int on_block = 0;
+    for (const SurfaceSample& s : cloud.samples) {
+      if (s.triangle < 10) continue;  // the first five quads are walls: open sheets, seen from either side
+      ++on_block;
+      EXPECT_GT(glm::dot(s.geometric_normal, scene.area_normal(s.triangle)), 0.0f);
     }
+    EXPECT_GT(on_block, 50);
   }
-  EXPECT_EQ(block, 12);
+}
+
+// Red if importance and area are exchanged: the lit side of the room's floor is gathered from more than its
+// outside.
+TEST(GatherCloudForView, PutsMoreSamplesWhereTheViewGathersMore) {
+  const Scene scene = tiny::room();
+  const RayTracer tracer(scene);
+  const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
+  const ImportanceMap map(tracer, buffer, 1, 1 << 16, 0.5f, 1);
+  const GatherCloud cloud =
+      make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, 16384, 1);
+  // Correlation, over the samples, of their bin's particles with their bin's samples.
+  std::map<uint64_t, double> count;
+  std::vector<uint64_t> bins;
+  for (const SurfaceSample& s : cloud.samples) {
+    const bool flipped = glm::dot(s.geometric_normal, scene.area_normal(s.triangle)) < 0.0f;
+    bins.push_back(map.bin(s.position, s.triangle, flipped));
+    count[bins.back()] += 1.0;
+  }
+  double xy = 0.0, xx = 0.0, yy = 0.0;
+  for (const uint64_t bin : bins) {
+    const double x = map.weight(bin), y = count[bin];
+    xy += x * y, xx += x * x, yy += y * y;
+  }
+  EXPECT_GT(xy / std::sqrt(xx * yy), 0.9);
 }
 
 }  // namespace

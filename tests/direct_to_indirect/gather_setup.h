@@ -22,10 +22,17 @@ struct GatherSetup {
       : scene(std::move(s)),
         tracer(scene),
         buffer(make_deep_frame_buffer(scene, tracer, {scene.camera, width, height})),
-        cloud(make_uniform_gather_cloud(
-            tracer, both_sides ? all_sides_live(scene) : find_live_sides(tracer, buffer, 1), samples, 1)) {
+        cloud(both_sides
+                  ? even_cloud(samples)
+                  : make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, samples, 1)) {
     order_gather_cloud(cloud, 30.0f, scene.bounds.diagonal());
     hierarchy = build_hierarchy(cloud);
+  }
+
+  // Evenly over both sides of everything, whatever the view.
+  GatherCloud even_cloud(int64_t samples) const {
+    std::vector<SurfacePiece> pieces = cut_surfaces(scene, 1e30);
+    return make_gather_cloud(tracer, pieces, samples, 1);
   }
 
   SparseRows final_gather(const FinalGatherSettings& settings) {

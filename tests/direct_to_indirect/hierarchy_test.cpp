@@ -36,11 +36,12 @@ TEST(Hierarchy, OrderIsAPermutation) {
   order_gather_cloud(cloud, 30.0f, 1.7f);
   std::set<float> seen(cloud.area.begin(), cloud.area.end());
   EXPECT_EQ(seen.size(), 256u);
-  for (size_t i = 0; i < 256; ++i) EXPECT_EQ(cloud.samples[i].position, p[static_cast<size_t>(cloud.area[i])]);
+  for (size_t i = 0; i < 256; ++i)
+    EXPECT_EQ(cloud.samples[i].position, p[static_cast<size_t>(cloud.area[i])]);
 }
 
-// Four well separated groups of 16 must become the root's four children. Red if the split key has the wrong sign for one
-// of the centroids, or the halves are not recursed into.
+// Four well separated groups of 16 must become the root's four children. Red if the split key has the wrong
+// sign for one of the centroids, or the halves are not recursed into.
 TEST(Hierarchy, SeparatesFourGroupsOfPositions) {
   std::vector<glm::vec3> p, n;
   for (uint64_t i = 0; i < 64; ++i) {
@@ -61,18 +62,21 @@ TEST(Hierarchy, SeparatesOpposingNormalsAtEqualPositions) {
   for (int i = 0; i < 16; ++i) n.emplace_back(0, i % 2 == 0 ? 1 : -1, 0);
   GatherCloud cloud = cloud_of(p, n);
   order_gather_cloud(cloud, 30.0f, 1.0f);
-  for (size_t i = 1; i < 8; ++i) EXPECT_EQ(cloud.samples[i].geometric_normal.y, cloud.samples[0].geometric_normal.y);
+  for (size_t i = 1; i < 8; ++i)
+    EXPECT_EQ(cloud.samples[i].geometric_normal.y, cloud.samples[0].geometric_normal.y);
   EXPECT_NE(cloud.samples[8].geometric_normal.y, cloud.samples[0].geometric_normal.y);
   // The root's mean normal is zero: no cone may be claimed.
   EXPECT_EQ(build_hierarchy(cloud).levels[0][0].cone_cosine, -1.0f);
 }
 
-// All samples equal: every split is a tie. Red if ties are broken by memory order or the iteration never ends.
+// All samples equal: every split is a tie. Red if ties are broken by memory order or the iteration never
+// ends.
 TEST(Hierarchy, BreaksTiesTheSameWayForOneAndTwoThreads) {
   std::vector<std::vector<float>> orders;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    GatherCloud cloud = cloud_of(std::vector<glm::vec3>(4096, glm::vec3(0.5f)), std::vector<glm::vec3>(4096, glm::vec3(0, 0, 1)));
+    GatherCloud cloud = cloud_of(std::vector<glm::vec3>(4096, glm::vec3(0.5f)),
+                                 std::vector<glm::vec3>(4096, glm::vec3(0, 0, 1)));
     order_gather_cloud(cloud, 30.0f, 0.0f);
     orders.push_back(cloud.area);
   }
@@ -98,7 +102,8 @@ TEST(Hierarchy, BoxesAndConesHoldTheirMembers) {
     for (size_t i = 0; i < level.size(); ++i) {
       const size_t size = 1024 / level.size();
       for (size_t s = i * size; s < (i + 1) * size; ++s) {
-        EXPECT_GE(glm::dot(cloud.samples[s].geometric_normal, level[i].cone_axis), level[i].cone_cosine - 1e-6f);
+        EXPECT_GE(glm::dot(cloud.samples[s].geometric_normal, level[i].cone_axis),
+                  level[i].cone_cosine - 1e-6f);
         EXPECT_EQ(glm::clamp(cloud.samples[s].position, level[i].lo, level[i].hi), cloud.samples[s].position);
       }
     }

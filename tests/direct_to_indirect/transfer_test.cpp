@@ -50,8 +50,9 @@ double relative_difference(const Image& a, const Image& b) {
 const Light lamp = tiny::omni({0.3f, 0.6f, 0.4f}, glm::vec3(2.0f, 1.5f, 1.0f));
 const Light beam = tiny::spot({-0.4f, 0.9f, 0.5f}, {0.2f, -1.0f, -0.1f}, 15.0f, 20.0f, glm::vec3(3.0f));
 
-// The GPU sums about 100 products and 5 Haar levels in float, its twin in double: they differ by rounding only. The bound
-// is 100 roundings of 2^-24. Red if GLSL and C++ read different coefficients, rows or albedos.
+// The GPU sums about 100 products and 5 Haar levels in float, its twin in double: they differ by rounding
+// only. The bound is 100 roundings of 2^-24. Red if GLSL and C++ read different coefficients, rows or
+// albedos.
 TEST(Transfer, GpuAgreesWithItsDoublePrecisionTwin) {
   Bench bench;
   for (const Light& light : {lamp, beam}) {
@@ -65,15 +66,16 @@ TEST(Transfer, GpuAgreesWithItsDoublePrecisionTwin) {
 TEST(Transfer, IsLinearInTheLights) {
   Bench bench;
   const std::vector<std::pair<std::string, std::string>> traced = {{"shadows", "traced"}};
-  const Relit a = bench.relit(tiny::lighting({lamp}), traced), b = bench.relit(tiny::lighting({beam}), traced);
+  const Relit a = bench.relit(tiny::lighting({lamp}), traced),
+              b = bench.relit(tiny::lighting({beam}), traced);
   const Relit both = bench.relit(tiny::lighting({lamp, beam}), traced);
   Image sum = a.indirect;
   for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += b.indirect.pixels[i];
   EXPECT_LT(relative_difference(both.indirect, sum), 1e-5);
 }
 
-// Mesa's two back ends run the same llvmpipe, but other drivers need not: the bound is that of the CPU twin, for traced
-// shadows (rasterised shadow maps may differ by a texel).
+// Mesa's two back ends run the same llvmpipe, but other drivers need not: the bound is that of the CPU twin,
+// for traced shadows (rasterised shadow maps may differ by a texel).
 TEST(Transfer, OsmesaAndEglAgree) {
   Bench osmesa;
   const std::vector<std::pair<std::string, std::string>> traced = {{"shadows", "traced"}};
@@ -107,9 +109,10 @@ TEST(Transfer, CacheGivesTheSamePictureAndKnowsEveryPrecomputeKnob) {
   EXPECT_EQ(relative_difference(first.total, second.total), 0.0);
   for (const Knob& knob : bench.method->knobs()) {
     if (knob.phase != KnobPhase::precompute) continue;
-    const std::string other = knob.name == "gather_samples" ? "4096"
-                              : knob.type == KnobType::choice ? knob.choices.back()
-                              : knob.type == KnobType::integer ? "17" : "0.07";
+    const std::string other = knob.name == "gather_samples"    ? "4096"
+                              : knob.type == KnobType::choice  ? knob.choices.back()
+                              : knob.type == KnobType::integer ? "17"
+                                                               : "0.07";
     bench.relit(lighting, {{knob.name, other}});
     EXPECT_EQ(bench.log.counters().count("cache_hits"), 0u) << knob.name;
   }

@@ -1,0 +1,80 @@
+#include "common/sampling/importance_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "common/sampling/random.h"
+#include "common/scene/topology.h"
+
+namespace relight {
+namespace {
+
+constexpr uint64_t stream = 0x11fe51de5ull;
+
+struct Particle {
+  uint64_t bin;
+  float weight;  // 0: no hit
+};
+
+float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+}  // namespace
+
+ImportanceMap::ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buffer, int bounces,
+                             int64_t particles, float cell, uint64_t seed)
+    : scene_(tracer.scene()),
+      cell_(cell),
+      component_(connected_components(weld_positions(tracer.scene().positions), tracer.scene().triangles)) {
+  const auto length = static_cast<size_t>(bounces);
+  std::vector<Particle> hits(static_cast<size_t>(particles) * length, Particle{0, 0.0f});
+  const auto shoot = [&](int64_t p) {
+    const auto number = static_cast<uint64_t>(p);
+    SurfaceSample at = buffer.indirect[random_bits(seed, stream, number, 0) % buffer.indirect.size()];
+    float weight = 1.0f;
+    for (size_t b = 0; b < length && at.valid; ++b) {
+      weight *= luminance(at.diffuse);
+      const glm::vec2 u(random_float(seed, stream, number, 2 * b + 1),
+                        random_float(seed, stream, number, 2 * b + 2));
+      const glm::vec3 direction = sample_cosine(at.shading_normal, u);
+      if (!(weight > 0.0f) || glm::dot(direction, at.geometric_normal) <= 0.0f) return;
+      const Hit hit = tracer.intersect(tracer.offset_point(at.position, at.geometric_normal), direction);
+      if (!hit.valid) return;
+      at = tracer.surface(hit, direction);
+      const bool flipped = glm::dot(scene_.area_normal(at.triangle), at.geometric_normal) < 0.0f;
+      hits[static_cast<size_t>(p) * length + b] = {bin(at.position, at.triangle, flipped), weight};
+    }
+  };
+  if (buffer.indirect.empty()) return;
+  tbb::parallel_for(int64_t{0}, particles, shoot);
+  for (const Particle& hit : hits) {  // in order: the sums must not depend on the number of threads
+    if (hit.weight == 0.0f) continue;
+    weights_[hit.bin] += static_cast<double>(hit.weight);
+    total_ += static_cast<double>(hit.weight);
+  }
+}
+
+uint64_t ImportanceMap::bin(const glm::vec3& position, uint32_t triangle, bool flipped) const {
+  const glm::vec3 n = flipped ? -scene_.area_normal(triangle) : scene_.area_normal(triangle);
+  const glm::vec3 a = glm::abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  const auto direction = static_cast<uint64_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+  // Points of a face that lies on the border between two cells are rounded to either: shifted by an odd
+  // fraction of a cell, which makes axis-aligned faces on a border unlikely; a face cut in two costs only
+  // noise.
+  const auto coordinate = [&](int d) {
+    return static_cast<uint64_t>(
+        std::max(0.0f, std::floor((position[d] - scene_.bounds.lo[d]) / cell_ + 0.37f)));
+  };
+  uint64_t key = hash_combine(component_[triangle], flipped ? 1 : 0);
+  for (int d = 0; d < 3; ++d) key = hash_combine(key, coordinate(d));
+  return hash_combine(key, direction);
+}
+
+double ImportanceMap::weight(uint64_t bin) const {
+  const auto found = weights_.find(bin);
+  return found == weights_.end() ? 0.0 : found->second;
+}
+
+}  // namespace relight

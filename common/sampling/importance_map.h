@@ -1,0 +1,45 @@
+// How much each part of the scene's surfaces matters for the indirect light of a view (Hasan 2006
+// section 4.1; the idea of importance is from Smits, Arvo, Salesin 1992): the density of particles shot from
+// the view samples, by side of surface.
+//
+// Surfaces reflect on both sides here, so the map also tells which sides light can use at all: the inside of
+// a closed solid, or the outer walls of a building seen from within, get no particles and need no gather
+// samples.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "common/sampling/deep_frame_buffer.h"
+#include "common/tracing/ray_tracer.h"
+
+namespace relight {
+
+// Particles are counted in bins: connected component and side of the surface x cell of a cubic grid x one of
+// six normal directions (axis and sign). Component and side keep the inside of a thin solid apart from its
+// outside, which may lie in the same cell with the same normal; cell and normal keep the inner walls of a
+// building apart from its outer ones.
+class ImportanceMap {
+ public:
+  // Shoots `particles` rays from random view samples, cosine-distributed, each followed for `bounces` hits
+  // with its weight multiplied by the luminance of the diffuse albedos passed. cell: edge of the grid's cells
+  // [scene units]. Deterministic for any number of threads.
+  ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buffer, int bounces, int64_t particles,
+                float cell, uint64_t seed);
+
+  // Number of the bin of a point on one side of a triangle (flipped: the side away from its area normal).
+  uint64_t bin(const glm::vec3& position, uint32_t triangle, bool flipped) const;
+  // Total weight of the particles in a bin.
+  double weight(uint64_t bin) const;
+  double total_weight() const { return total_; }
+
+ private:
+  const Scene& scene_;
+  float cell_;
+  std::vector<uint32_t> component_;  // by triangle
+  std::unordered_map<uint64_t, double> weights_;
+  double total_ = 0.0;
+};
+
+}  // namespace relight
