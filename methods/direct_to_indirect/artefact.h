@@ -12,7 +12,7 @@
 namespace relight::direct_to_indirect {
 
 struct Artefact {
-  GatherCloud cloud;        // in tree order
+  GatherCloud cloud;        // in tree order; diffuse albedos include the column scaling
   SparseRows final_gather;  // wavelet space, one row a view sample
 };
 

@@ -8,11 +8,10 @@
 
 #include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/tile_gather.h"
+#include "methods/direct_to_indirect/view_tiles.h"
 
 namespace relight::direct_to_indirect {
 namespace {
-
-constexpr int tile_side = 4;
 
 struct Candidate {
   float weight;
@@ -54,19 +53,13 @@ class Builder {
         settings_(settings),
         columns_(columns),
         limit_(static_cast<size_t>(settings.coefficients)),
-        tiles_x_((buffer.view.width + tile_side - 1) / tile_side),
-        tiles_y_((buffer.view.height + tile_side - 1) / tile_side),
-        tiles_(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_)) {}
+        view_tiles_(buffer),
+        tiles_(static_cast<size_t>(view_tiles_.count())) {}
 
-  int tiles() const { return tiles_x_ * tiles_y_; }
+  int tiles() const { return view_tiles_.count(); }
 
   void tile(Worker& worker, int t) {
-    std::array<const SurfaceSample*, lanes> samples{};
-    for (int i = 0; i < lanes; ++i) {
-      const int x = t % tiles_x_ * tile_side + i % tile_side, y = t / tiles_x_ * tile_side + i / tile_side;
-      if (x < buffer_.view.width && y < buffer_.view.height)
-        samples[static_cast<size_t>(i)] = &buffer_.indirect[pixel(x, y)];
-    }
+    const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
     worker.gather.gather(samples, static_cast<uint64_t>(t));
     TileRows& rows = tiles_[static_cast<size_t>(t)];
     for (size_t i = 0; i < lanes; ++i) {
@@ -84,8 +77,8 @@ class Builder {
     rows.entries.reserve(total);
     for (int y = 0; y < buffer_.view.height; ++y)
       for (int x = 0; x < buffer_.view.width; ++x) {
-        const TileRows& t = tiles_[static_cast<size_t>(y / tile_side * tiles_x_ + x / tile_side)];
-        const auto lane = static_cast<size_t>(y % tile_side * tile_side + x % tile_side);
+        const TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
+        const size_t lane = ViewTiles::lane_of(x, y);
         const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
         rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
         rows.row_start.push_back(rows.entries.size());
@@ -99,10 +92,6 @@ class Builder {
     std::vector<SparseEntry> entries;
     std::array<uint32_t, lanes> end{};
   };
-
-  size_t pixel(int x, int y) const {
-    return static_cast<size_t>(y) * static_cast<size_t>(buffer_.view.width) + static_cast<size_t>(x);
-  }
 
   void append_row(Worker& worker, size_t lane, std::vector<SparseEntry>& out) {
     worker.candidates.clear();
@@ -130,7 +119,7 @@ class Builder {
   const FinalGatherSettings& settings_;
   uint32_t columns_;
   size_t limit_;
-  int tiles_x_, tiles_y_;
+  ViewTiles view_tiles_;
   std::vector<TileRows> tiles_;
 };
 
@@ -138,10 +127,11 @@ class Builder {
 
 SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                                 const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                                const FinalGatherSettings& settings, Progress& progress, StageLog& log) {
+                                const FinalGatherSettings& settings, std::span<const float> column_scale,
+                                Progress& progress, StageLog& log) {
   Builder builder(buffer, settings, static_cast<uint32_t>(cloud.samples.size()));
   tbb::enumerable_thread_specific<Worker> workers([&] {
-    return Worker{TileGather(tracer, cloud, hierarchy, settings), {}, {}};
+    return Worker{TileGather(tracer, cloud, hierarchy, settings, column_scale), {}, {}};
   });
   progress.start("final gather", builder.tiles());
   tbb::parallel_for(0, builder.tiles(), [&](int t) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "common/linalg/sparse_rows.h"
 #include "common/run/progress.h"
@@ -39,8 +40,10 @@ struct FinalGatherSettings {
 // Parallel over tiles of 4x4 pixels, whose view samples share their links' cut (refined for the closest of
 // them) and random members, so that visibility is tested by coherent packets of 16 rays. Deterministic for
 // any number of threads.
+// column_scale: one factor a gather sample by which its column is divided (column_scaling.h), or empty.
 SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                                 const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                                const FinalGatherSettings& settings, Progress& progress, StageLog& log);
+                                const FinalGatherSettings& settings, std::span<const float> column_scale,
+                                Progress& progress, StageLog& log);
 
 }  // namespace relight::direct_to_indirect

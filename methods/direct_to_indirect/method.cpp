@@ -13,6 +13,7 @@
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
 #include "methods/direct_to_indirect/artefact.h"
+#include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
@@ -21,6 +22,17 @@
 namespace relight {
 namespace direct_to_indirect {
 namespace {
+
+FinalGatherSettings final_gather_settings(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  FinalGatherSettings settings;
+  settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
+  settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
+  settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
+  settings.selection = knobs.choice("selection") == "area" ? Selection::area : Selection::magnitude;
+  settings.seed = context.seed;
+  return settings;
+}
 
 Artefact precompute(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
@@ -39,15 +51,16 @@ Artefact precompute(const PrepareContext& context) {
                        context.scene.bounds.diagonal());
     hierarchy = build_hierarchy(artefact.cloud);
   }
+  const FinalGatherSettings settings = final_gather_settings(context);
+  std::vector<float> scale;
+  if (knobs.choice("column_scaling") == "mean_row") {
+    StageTimer timer(context.log, "column_scaling");
+    scale = mean_row_scaling(context.tracer, context.buffer, artefact.cloud, hierarchy, settings);
+  }
   StageTimer timer(context.log, "final_gather");
-  FinalGatherSettings settings;
-  settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
-  settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
-  settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
-  settings.selection = knobs.choice("selection") == "area" ? Selection::area : Selection::magnitude;
-  settings.seed = context.seed;
   artefact.final_gather = compute_final_gather(context.tracer, context.buffer, artefact.cloud, hierarchy,
-                                               settings, context.progress, context.log);
+                                               settings, scale, context.progress, context.log);
+  for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;
 }
 

@@ -49,7 +49,8 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
 
 // Returns the scaling coefficient of the cluster's part of each row; appends the details below and at it.
 Lanes TileGather::visit(size_t level, size_t index, uint32_t mask) {
-  if (level + 1 == tree_.levels.size()) return link(level, index, mask);  // a single sample: link() tests it exactly
+  if (level + 1 == tree_.levels.size())
+    return link(level, index, mask);  // a single sample: link() tests it exactly
   const Cluster& cluster = tree_.levels[level][index];
   mask = in_front(cluster, mask);
   if (mask) mask = not_facing_away(cluster, mask);
@@ -154,8 +155,10 @@ Lanes TileGather::link(size_t level, size_t index, uint32_t mask) {
   counts_.links += std::popcount(mask);
   counts_.rays += std::popcount(mask);
   const uint32_t visible = mask ? tracer_.visible16(ray_start_.data(), tracer_.offset_point(q, nq), mask) : 0;
-  const float root_size = std::sqrt(static_cast<float>(size));
-  for (size_t i = 0; i < lanes; ++i) value[i] = (visible >> i & 1u) ? value[i] * root_size : 0.0f;
+  // The scaled element F / w of one member stands for all of them, too.
+  const float factor =
+      std::sqrt(static_cast<float>(size)) / (column_scale_.empty() ? 1.0f : column_scale_[member]);
+  for (size_t i = 0; i < lanes; ++i) value[i] = (visible >> i & 1u) ? value[i] * factor : 0.0f;
   return value;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/sampling/gather_cloud.h"
@@ -30,8 +31,8 @@ struct GatherCounts {
 class TileGather {
  public:
   TileGather(const RayTracer& tracer, const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-             const FinalGatherSettings& settings)
-      : tracer_(tracer), cloud_(cloud), tree_(hierarchy), settings_(settings) {}
+             const FinalGatherSettings& settings, std::span<const float> column_scale)
+      : tracer_(tracer), cloud_(cloud), tree_(hierarchy), settings_(settings), column_scale_(column_scale) {}
 
   // samples: 16 pointers, null where there is none. tile: a number that selects the random members.
   // Fills coefficients() with every coefficient that is not zero for all lanes, in no particular order.
@@ -50,6 +51,7 @@ class TileGather {
   const GatherCloud& cloud_;
   const GatherHierarchy& tree_;
   const FinalGatherSettings& settings_;
+  std::span<const float> column_scale_;  // elements are divided by it; empty: not scaled
   uint64_t tile_ = 0;
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};

@@ -1,6 +1,7 @@
 // Final-gather rows against a brute-force double-precision oracle of every (view sample, gather sample) pair.
 #include "methods/direct_to_indirect/final_gather.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 
 #include "common/run/thread_limit.h"
 #include "common/wavelet/haar.h"
+#include "methods/direct_to_indirect/column_scaling.h"
 #include "tests/direct_to_indirect/gather_setup.h"
 #include "tests/support/tiny_scenes.h"
 
@@ -117,6 +119,25 @@ TEST(FinalGather, HasTheSameBitsForOneAndTwoThreads) {
   for (size_t e = 0; e < rows[0].entries.size(); ++e) {
     EXPECT_EQ(rows[0].entries[e].column, rows[1].entries[e].column);
     EXPECT_EQ(rows[0].entries[e].value, rows[1].entries[e].value);
+  }
+}
+
+// A change of variables: without truncation and with single-sample links, dividing columns and multiplying
+// the light by the same factors changes nothing. Red if a row is divided by another member's factor, or by
+// the factor's square root.
+TEST(FinalGather, ColumnScalingChangesNoUntruncatedProduct) {
+  GatherSetup s(tiny::room(), 12, 12, 1024);
+  const FinalGatherSettings settings = exact_settings(1024);
+  const std::vector<float> scale = mean_row_scaling(s.tracer, s.buffer, s.cloud, s.hierarchy, settings);
+  const SparseRows plain = s.final_gather(settings), scaled = s.final_gather(settings, scale);
+  EXPECT_GT(*std::max_element(scale.begin(), scale.end()),
+            1.5f * *std::min_element(scale.begin(), scale.end()));
+  for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {
+    const std::vector<double> a = wavelet::inverse(dense_row(plain, i)),
+                              b = wavelet::inverse(dense_row(scaled, i));
+    const double largest = *std::max_element(a.begin(), a.end());
+    for (size_t j = 0; j < a.size(); ++j)
+      ASSERT_NEAR(a[j], b[j] * static_cast<double>(scale[j]), 1e-4 * largest);
   }
 }
 

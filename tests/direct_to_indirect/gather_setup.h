@@ -35,10 +35,10 @@ struct GatherSetup {
     return make_gather_cloud(tracer, pieces, samples, 1);
   }
 
-  SparseRows final_gather(const FinalGatherSettings& settings) {
+  SparseRows final_gather(const FinalGatherSettings& settings, const std::vector<float>& column_scale = {}) {
     Progress progress(true);
     StageLog log;
-    return compute_final_gather(tracer, buffer, cloud, hierarchy, settings, progress, log);
+    return compute_final_gather(tracer, buffer, cloud, hierarchy, settings, column_scale, progress, log);
   }
 };
 

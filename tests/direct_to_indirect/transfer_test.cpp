@@ -109,10 +109,13 @@ TEST(Transfer, CacheGivesTheSamePictureAndKnowsEveryPrecomputeKnob) {
   EXPECT_EQ(relative_difference(first.total, second.total), 0.0);
   for (const Knob& knob : bench.method->knobs()) {
     if (knob.phase != KnobPhase::precompute) continue;
-    const std::string other = knob.name == "gather_samples"    ? "4096"
-                              : knob.type == KnobType::choice  ? knob.choices.back()
-                              : knob.type == KnobType::integer ? "17"
-                                                               : "0.07";
+    // Any value that is not the default.
+    const std::string other =
+        knob.name == "gather_samples" ? "4096"
+        : knob.type == KnobType::choice
+            ? knob.choices.back() == knob.default_value ? knob.choices.front() : knob.choices.back()
+        : knob.type == KnobType::integer ? "17"
+                                         : "0.07";
     bench.relit(lighting, {{knob.name, other}});
     EXPECT_EQ(bench.log.counters().count("cache_hits"), 0u) << knob.name;
   }
