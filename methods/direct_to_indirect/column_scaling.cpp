@@ -6,7 +6,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "common/sampling/random.h"
 #include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/tile_gather.h"
 #include "methods/direct_to_indirect/view_tiles.h"
@@ -14,9 +13,6 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr uint64_t stream = 0xc01a5ca1ull;
-// A mean needs no more: some 40,000 of 307,200 rows, an eighth of the final gather's time.
-constexpr uint64_t one_tile_in = 8;
 // The share of the mean that every column keeps.
 constexpr double floor_share = 0.1;
 
@@ -40,10 +36,7 @@ std::vector<float> mean_row_scaling(const RayTracer& tracer, const DeepFrameBuff
                                     const GatherCloud& cloud, const GatherHierarchy& hierarchy,
                                     const FinalGatherSettings& settings) {
   const ViewTiles tiles(buffer);
-  std::vector<int> chosen;
-  for (int t = 0; t < tiles.count(); ++t)
-    if (random_bits(settings.seed, stream, static_cast<uint64_t>(t), 0) % one_tile_in == 0)
-      chosen.push_back(t);
+  const std::vector<int> chosen = tiles.subset(settings.seed);
   tbb::enumerable_thread_specific<TileGather> gathers(
       [&] { return TileGather(tracer, cloud, hierarchy, settings, {}); });
   std::vector<SparseSum> sums(chosen.size());

@@ -6,31 +6,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "common/wavelet/haar.h"
+#include "methods/direct_to_indirect/selection.h"
 #include "methods/direct_to_indirect/tile_gather.h"
 #include "methods/direct_to_indirect/view_tiles.h"
 
 namespace relight::direct_to_indirect {
 namespace {
-
-struct Candidate {
-  float weight;
-  SparseEntry entry;
-};
-
-// Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.
-void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
-  const auto heavier = [](const Candidate& a, const Candidate& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
-  };
-  if (candidates.size() > limit) {
-    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
-                     candidates.end(), heavier);
-    candidates.resize(limit);
-  }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
-}
 
 struct Totals {
   GatherCounts gather;
@@ -48,11 +29,13 @@ struct Worker {
 
 class Builder {
  public:
-  Builder(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings, uint32_t columns)
+  // threshold: of shared_budget_threshold; used with settings.shared_budget only.
+  Builder(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings, uint32_t columns,
+          float threshold)
       : buffer_(buffer),
         settings_(settings),
         columns_(columns),
-        limit_(static_cast<size_t>(settings.coefficients)),
+        threshold_(threshold),
         view_tiles_(buffer),
         tiles_(static_cast<size_t>(view_tiles_.count())) {}
 
@@ -63,7 +46,7 @@ class Builder {
     worker.gather.gather(samples, static_cast<uint64_t>(t));
     TileRows& rows = tiles_[static_cast<size_t>(t)];
     for (size_t i = 0; i < lanes; ++i) {
-      if (samples[i] && samples[i]->valid) append_row(worker, i, rows.entries);
+      if (samples[i] && samples[i]->valid) append_row(worker, i, *samples[i], rows.entries);
       rows.end[i] = static_cast<uint32_t>(rows.entries.size());
     }
   }
@@ -93,20 +76,16 @@ class Builder {
     std::array<uint32_t, lanes> end{};
   };
 
-  void append_row(Worker& worker, size_t lane, std::vector<SparseEntry>& out) {
-    worker.candidates.clear();
+  void append_row(Worker& worker, size_t lane, const SurfaceSample& sample, std::vector<SparseEntry>& out) {
+    const float factor = settings_.shared_budget ? row_factor(sample) : 1.0f;
+    collect_candidates(worker.gather.coefficients(), lane, settings_.selection, columns_, factor,
+                       worker.candidates);
     double energy = 0.0, kept = 0.0;
-    for (const LaneCoefficient& c : worker.gather.coefficients()) {
-      const float value = c.value[lane];
-      if (value == 0.0f) continue;
-      energy += static_cast<double>(value) * value;
-      const float area = settings_.selection == Selection::area
-                             ? static_cast<float>(wavelet::support(c.index, columns_))
-                             : 1.0f;
-      worker.candidates.push_back({std::abs(value) * area, {c.index, value}});
-    }
+    for (const Candidate& c : worker.candidates) energy += static_cast<double>(c.entry.value) * c.entry.value;
     worker.totals.before += static_cast<int64_t>(worker.candidates.size());
-    keep_largest(worker.candidates, limit_);
+    if (settings_.shared_budget)
+      std::erase_if(worker.candidates, [this](const Candidate& c) { return !(c.weight > threshold_); });
+    keep_largest(worker.candidates, settings_.row_limit());
     for (const Candidate& c : worker.candidates) {
       out.push_back(c.entry);
       kept += static_cast<double>(c.entry.value) * c.entry.value;
@@ -118,7 +97,7 @@ class Builder {
   const DeepFrameBuffer& buffer_;
   const FinalGatherSettings& settings_;
   uint32_t columns_;
-  size_t limit_;
+  float threshold_;
   ViewTiles view_tiles_;
   std::vector<TileRows> tiles_;
 };
@@ -129,7 +108,10 @@ SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& 
                                 const GatherCloud& cloud, const GatherHierarchy& hierarchy,
                                 const FinalGatherSettings& settings, std::span<const float> column_scale,
                                 Progress& progress, StageLog& log) {
-  Builder builder(buffer, settings, static_cast<uint32_t>(cloud.samples.size()));
+  const float threshold = settings.shared_budget ? shared_budget_threshold(tracer, buffer, cloud, hierarchy,
+                                                                           settings, column_scale)
+                                                 : 0.0f;
+  Builder builder(buffer, settings, static_cast<uint32_t>(cloud.samples.size()), threshold);
   tbb::enumerable_thread_specific<Worker> workers([&] {
     return Worker{TileGather(tracer, cloud, hierarchy, settings, column_scale), {}, {}};
   });

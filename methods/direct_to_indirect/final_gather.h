@@ -30,9 +30,13 @@ struct FinalGatherSettings {
   float link_threshold =
       0.01f;  // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
   float form_factor_clamp = 0.1f;  // largest element
-  int coefficients = 100;          // kept a row
+  int coefficients = 100;          // kept a row, or on average a row with shared_budget
+  bool shared_budget = false;      // all rows share coefficients x rows, the heaviest of all are kept
   Selection selection = Selection::area;
   uint64_t seed = 1;
+
+  // Most that one row may keep. A shared budget is mostly used up below four times the mean.
+  size_t row_limit() const { return static_cast<size_t>(coefficients) * (shared_budget ? 8 : 1); }
 };
 
 // One row a view sample of `buffer` (empty for invalid ones), one column a wavelet coefficient of the ordered

@@ -21,6 +21,8 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
+       "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
       {"selection", choice, precompute, "area", 0, 0, {"area", "magnitude"}, "truncation",
        "Which coefficients a row keeps: largest |c| x support area (paper), or largest |c|."},
       {"shadows", choice, relight, "map", 0, 0, {"map", "traced"}, "direct_shading",

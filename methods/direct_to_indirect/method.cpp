@@ -30,6 +30,7 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
   settings.selection = knobs.choice("selection") == "area" ? Selection::area : Selection::magnitude;
+  settings.shared_budget = knobs.choice("row_budget") == "shared";
   settings.seed = context.seed;
   return settings;
 }

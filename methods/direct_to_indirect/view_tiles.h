@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "common/sampling/deep_frame_buffer.h"
+#include "common/sampling/random.h"
 #include "methods/direct_to_indirect/tile_gather.h"
 
 namespace relight::direct_to_indirect {
@@ -20,6 +22,14 @@ class ViewTiles {
   // Tile and lane of a pixel.
   size_t tile_of(int x, int y) const { return static_cast<size_t>(y / side * columns_ + x / side); }
   static size_t lane_of(int x, int y) { return static_cast<size_t>(y % side * side + x % side); }
+
+  // Every eighth tile, chosen by hash: enough for means and thresholds over the view.
+  std::vector<int> subset(uint64_t seed) const {
+    std::vector<int> chosen;
+    for (int t = 0; t < count(); ++t)
+      if (random_bits(seed, 0xc01a5ca1ull, static_cast<uint64_t>(t), 0) % 8 == 0) chosen.push_back(t);
+    return chosen;
+  }
 
   // The tile's view samples by lane; null outside the picture.
   std::array<const SurfaceSample*, lanes> samples(int tile) const {

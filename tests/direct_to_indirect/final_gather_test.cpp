@@ -141,6 +141,20 @@ TEST(FinalGather, ColumnScalingChangesNoUntruncatedProduct) {
   }
 }
 
+// Red if the threshold is taken from the wrong end of the weights, or rows without albedo get coefficients.
+TEST(FinalGather, SharedBudgetKeepsTheSameNumberInAllAndMoreWhereRowsAreBrighter) {
+  GatherSetup s(tiny::room(), 96, 72, 1024);
+  FinalGatherSettings settings;
+  settings.coefficients = 30;
+  const size_t fixed = s.final_gather(settings).entries.size();
+  settings.shared_budget = true;
+  for (size_t i = 0; i < s.buffer.indirect.size() / 2; ++i) s.buffer.indirect[i].diffuse = glm::vec3(0.0f);
+  const SparseRows shared = s.final_gather(settings);
+  const auto total = static_cast<double>(fixed);
+  EXPECT_NEAR(static_cast<double>(shared.entries.size()), total, 0.15 * total);
+  EXPECT_EQ(shared.row_start[s.buffer.indirect.size() / 2], 0u);
+}
+
 TEST(FinalGather, HasEmptyRowsWhereTheCameraSeesNothing) {
   Scene scene = tiny::room();
   scene.camera.target = scene.camera.eye + glm::vec3(0, 0, 5);

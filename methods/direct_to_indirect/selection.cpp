@@ -1,0 +1,80 @@
+#include "methods/direct_to_indirect/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "common/wavelet/haar.h"
+#include "methods/direct_to_indirect/view_tiles.h"
+
+namespace relight::direct_to_indirect {
+
+void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, Selection selection,
+                        uint32_t columns, float row_factor, std::vector<Candidate>& out) {
+  out.clear();
+  for (const LaneCoefficient& c : coefficients) {
+    const float value = c.value[lane];
+    if (value == 0.0f) continue;
+    const float area =
+        selection == Selection::area ? static_cast<float>(wavelet::support(c.index, columns)) : 1.0f;
+    out.push_back({std::abs(value) * area * row_factor, {c.index, value}});
+  }
+}
+
+void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
+  const auto heavier = [](const Candidate& a, const Candidate& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
+  };
+  if (candidates.size() > limit) {
+    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
+                     candidates.end(), heavier);
+    candidates.resize(limit);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
+}
+
+float row_factor(const SurfaceSample& s) { return glm::dot(s.diffuse, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                              const GatherCloud& cloud, const GatherHierarchy& hierarchy,
+                              const FinalGatherSettings& settings, std::span<const float> column_scale) {
+  const ViewTiles tiles(buffer);
+  const std::vector<int> chosen = tiles.subset(settings.seed);
+  const auto columns = static_cast<uint32_t>(cloud.samples.size());
+  const size_t limit = settings.row_limit();
+  tbb::enumerable_thread_specific<TileGather> gathers(
+      [&] { return TileGather(tracer, cloud, hierarchy, settings, column_scale); });
+  std::vector<std::vector<float>> weights(chosen.size());
+  std::vector<size_t> rows(chosen.size(), 0);
+  tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
+    const auto samples = tiles.samples(chosen[i]);
+    TileGather& gather = gathers.local();
+    gather.gather(samples, static_cast<uint64_t>(chosen[i]));
+    std::vector<Candidate> candidates;
+    for (size_t lane = 0; lane < lanes; ++lane) {
+      if (!samples[lane] || !samples[lane]->valid) continue;
+      ++rows[i];
+      collect_candidates(gather.coefficients(), lane, settings.selection, columns, row_factor(*samples[lane]),
+                         candidates);
+      keep_largest(candidates, limit);
+      for (const Candidate& c : candidates) weights[i].push_back(c.weight);
+    }
+  });
+  std::vector<float> all;
+  size_t valid_rows = 0;
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    all.insert(all.end(), weights[i].begin(), weights[i].end());
+    valid_rows += rows[i];
+  }
+  const size_t wanted = valid_rows * static_cast<size_t>(settings.coefficients);
+  if (wanted >= all.size()) return 0.0f;
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted), all.end(),
+                   std::greater<float>());
+  return all[wanted];
+}
+
+}  // namespace relight::direct_to_indirect

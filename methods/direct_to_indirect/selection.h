@@ -1,0 +1,34 @@
+// Which wavelet coefficients a row keeps (Hasan 2006 section 4.3, "area-weighted wavelet culling").
+#pragma once
+
+#include <vector>
+
+#include "common/linalg/sparse_rows.h"
+#include "methods/direct_to_indirect/tile_gather.h"
+
+namespace relight::direct_to_indirect {
+
+struct Candidate {
+  float weight;  // the larger, the more it deserves to be kept
+  SparseEntry entry;
+};
+
+// The coefficients of one lane that are not zero, with weight |c| x support area (Selection::area) or |c|,
+// times row_factor.
+void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, Selection selection,
+                        uint32_t columns, float row_factor, std::vector<Candidate>& out);
+
+// Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.
+void keep_largest(std::vector<Candidate>& candidates, size_t limit);
+
+// Brightness of a view sample's row in the picture: the luminance of its albedo k_d.
+float row_factor(const SurfaceSample& sample);
+
+// The weight above which a coefficient is kept when all rows share one budget of `coefficients` a row on
+// average: measured on every eighth tile of the view, so that the number kept comes out within a few per
+// cent. Deterministic.
+float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                              const GatherCloud& cloud, const GatherHierarchy& hierarchy,
+                              const FinalGatherSettings& settings, std::span<const float> column_scale);
+
+}  // namespace relight::direct_to_indirect
