@@ -13,6 +13,10 @@ namespace {
 
 constexpr uint64_t stream = 0x11fe51de5ull;
 
+// Layers a cell. More would tell thinner slabs apart and need more particles on slanted surfaces, which cross
+// many.
+constexpr float layers = 32.0f;
+
 struct Particle {
   uint64_t bin;
   float weight;  // 0: no hit
@@ -67,7 +71,11 @@ uint64_t ImportanceMap::bin(const glm::vec3& position, uint32_t triangle, bool f
     return static_cast<uint64_t>(
         std::max(0.0f, std::floor((position[d] - scene_.bounds.lo[d]) / cell_ + 0.37f)));
   };
-  uint64_t key = hash_combine(component_[triangle], flipped ? 1 : 0);
+  // The height along the normal's axis, in fine layers: the buried top of a lower step has the component,
+  // side and normal of the visible one above it.
+  const auto layer = static_cast<uint64_t>(
+      std::max(0.0f, std::floor((position[axis] - scene_.bounds.lo[axis]) / cell_ * layers + 0.37f)));
+  uint64_t key = hash_combine(hash_combine(component_[triangle], flipped ? 1 : 0), layer);
   for (int d = 0; d < 3; ++d) key = hash_combine(key, coordinate(d));
   return hash_combine(key, direction);
 }
