@@ -23,10 +23,10 @@ struct Light {
   std::string name;
   LightType type = LightType::omni;
   glm::vec3 position{0.0f};
-  glm::vec3 direction{0, -1, 0};           // spot axis, unit; unused for omni
-  glm::vec3 intensity{1.0f};               // on the axis for a spot
-  float inner_degrees = 20.0f;             // spot: half-angle of full intensity
-  float outer_degrees = 25.0f;             // spot: half-angle where the intensity reaches zero; > inner
+  glm::vec3 direction{0, -1, 0};  // spot axis, unit; unused for omni
+  glm::vec3 intensity{1.0f};      // on the axis for a spot
+  float inner_degrees = 20.0f;    // spot: half-angle of full intensity
+  float outer_degrees = 25.0f;    // spot: half-angle where the intensity reaches zero; > inner
   bool casts_shadows = true;
 
   // The form the shading code (C++ and GLSL) reads.

@@ -1,5 +1,5 @@
-// Precomputed data on disk, one file per (kind, key). Files are written to a temporary name and renamed, carry a
-// checksum and the full key; a damaged or mismatching file counts as a miss and is replaced.
+// Precomputed data on disk, one file per (kind, key). Files are written to a temporary name and renamed,
+// carry a checksum and the full key; a damaged or mismatching file counts as a miss and is replaced.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,11 @@ class ArtefactCache {
   // $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else ~/.cache/relight.
   static std::filesystem::path default_folder();
 
-  // `kind` names the artefact ("direct_to_indirect.final_gather"), `key` everything that it depends on, in words.
+  // `kind` names the artefact ("direct_to_indirect.final_gather"), `key` everything that it depends on, in
+  // words.
   std::optional<std::vector<std::byte>> load(const std::string& kind, const std::string& key) const;
-  // Throws Error on a full disk or missing permission, leaving no partial file; callers may go on without a cache.
+  // Throws Error on a full disk or missing permission, leaving no partial file; callers may go on without a
+  // cache.
   void store(const std::string& kind, const std::string& key, const std::vector<std::byte>& data) const;
 
   struct Entry {

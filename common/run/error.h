@@ -1,4 +1,5 @@
-// The one exception type for what a user can cause: it says what, where, the value found and the valid choices.
+// The one exception type for what a user can cause: it says what, where, the value found and the valid
+// choices.
 #pragma once
 
 #include <stdexcept>

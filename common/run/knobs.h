@@ -1,5 +1,5 @@
-// Knobs: the settings of a method. The table is the single source for the command line's help, `--set`, experiment
-// files, run records and documentation.
+// Knobs: the settings of a method. The table is the single source for the command line's help, `--set`,
+// experiment files, run records and documentation.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ struct Knob {
 
 using KnobTable = std::vector<Knob>;
 
-// Values for every knob of one table. Getters throw std::logic_error on a name or type the table does not have.
+// Values for every knob of one table. Getters throw std::logic_error on a name or type the table does not
+// have.
 class KnobValues {
  public:
   KnobValues() = default;

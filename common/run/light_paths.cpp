@@ -10,7 +10,8 @@ std::string LightPaths::to_string() const {
   std::string sources = "local lights";
   if (environment) sources += ", environment";
   if (emission) sources += ", emission";
-  if (min_bounces == 1 && max_bounces == 1) return fmt::format("E {} {} L, 1 bounce, {}", eye, interior, sources);
+  if (min_bounces == 1 && max_bounces == 1)
+    return fmt::format("E {} {} L, 1 bounce, {}", eye, interior, sources);
   return fmt::format("E {} {}+ L, {}..{} bounces, {}", eye, interior, min_bounces, max_bounces, sources);
 }
 

@@ -5,16 +5,16 @@
 
 namespace relight {
 
-// Paths E x1 .. x(k+1) L with k bounces of indirect light, min_bounces <= k <= max_bounces (k = 0 is direct light and
-// always carried). Heckbert's notation: "E D D L" is one diffuse bounce.
+// Paths E x1 .. x(k+1) L with k bounces of indirect light, min_bounces <= k <= max_bounces (k = 0 is direct
+// light and always carried). Heckbert's notation: "E D D L" is one diffuse bounce.
 struct LightPaths {
   int min_bounces = 1;
   int max_bounces = 1;
-  bool glossy_at_eye = false;       // may the visible vertex reflect indirect light through its glossy lobe?
-  bool glossy_interior = false;     // may the vertices behind it?
-  bool environment = false;         // does light from the environment count?
-  bool emission = false;            // does light emitted by surfaces count?
-  std::string to_string() const;    // e.g. "E D D L, 1 bounce, local lights"
+  bool glossy_at_eye = false;     // may the visible vertex reflect indirect light through its glossy lobe?
+  bool glossy_interior = false;   // may the vertices behind it?
+  bool environment = false;       // does light from the environment count?
+  bool emission = false;          // does light emitted by surfaces count?
+  std::string to_string() const;  // e.g. "E D D L, 1 bounce, local lights"
 };
 
 }  // namespace relight

@@ -1,5 +1,6 @@
-// What a relighting method is, as the experiments see it: knobs, declared light paths, a precompute and a relight.
-// A method lives in its own folder under methods/ and is registered by one line in experiments/method_list.cpp.
+// What a relighting method is, as the experiments see it: knobs, declared light paths, a precompute and a
+// relight. A method lives in its own folder under methods/ and is registered by one line in
+// experiments/method_list.cpp.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,9 @@ namespace relight {
 
 class RayTracer;
 class ArtefactCache;
-namespace gpu { class Context; }
+namespace gpu {
+class Context;
+}
 
 // Everything a method may use to precompute. All references outlive the Prepared object.
 struct PrepareContext {
@@ -27,10 +30,10 @@ struct PrepareContext {
   const DeepFrameBuffer& buffer;
   const KnobValues& knobs;
   uint64_t seed;
-  gpu::Context& gpu;         // current on the calling thread
+  gpu::Context& gpu;  // current on the calling thread
   ArtefactCache& cache;
   Progress& progress;
-  StageLog& log;             // precompute stages
+  StageLog& log;  // precompute stages
 };
 
 // Result of one relight; all images have the view's size.

@@ -157,8 +157,8 @@ RunRecord record_from(const Json& json) {
   json.at("counters").get_to(record.counters);
   if (json.contains("reference")) {
     const Json& cost = json["reference"];
-    record.reference = {cost.at("samples").get<int64_t>(),        cost.at("batches").get<int64_t>(),
-                        number_from(cost.at("seconds")),          cost.at("rays").get<int64_t>(),
+    record.reference = {cost.at("samples").get<int64_t>(),       cost.at("batches").get<int64_t>(),
+                        number_from(cost.at("seconds")),         cost.at("rays").get<int64_t>(),
                         cost.at("estimator").get<std::string>(), cost.at("from_cache").get<bool>()};
   }
   json.at("warnings").get_to(record.warnings);
@@ -191,9 +191,9 @@ std::string record_to_json(const RunRecord& record) {
   json["memory_bytes"] = record.memory_bytes;
   json["counters"] = record.counters;
   if (const auto& cost = record.reference)
-    json["reference"] = {
-        {"samples", cost->samples}, {"batches", cost->batches},     {"seconds", number(cost->seconds)},
-        {"rays", cost->rays},       {"estimator", cost->estimator}, {"from_cache", cost->from_cache}};
+    json["reference"] = {{"samples", cost->samples},         {"batches", cost->batches},
+                         {"seconds", number(cost->seconds)}, {"rays", cost->rays},
+                         {"estimator", cost->estimator},     {"from_cache", cost->from_cache}};
   json["warnings"] = record.warnings;
   json["failed_stages"] = record.failed_stages;
   json["provenance"] = provenance_to_json(record.provenance);

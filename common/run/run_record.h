@@ -38,8 +38,8 @@ struct RunRecord {
   std::string scene, view, lighting, method;
   std::map<std::string, std::string> knobs;  // fully resolved
   uint64_t seed = 0;
-  std::string light_paths;      // LightPaths::to_string() of the method
-  std::string reference_paths;  // and of the reference that it was compared with
+  std::string light_paths;                 // LightPaths::to_string() of the method
+  std::string reference_paths;             // and of the reference that it was compared with
   std::vector<std::string> not_simulated;  // what the scene has and the method leaves out, in words
   std::string command;                     // command line that repeats this run, every setting written out
   double exposure = 1;                     // the scene's fixed factor before the clamp of `relative`

@@ -1,5 +1,6 @@
 // What a run did and what it cost: named stages with wall time, counters, bytes by artefact, warnings.
-// One log per phase (precompute, relight); written into the run record. Not thread-safe: log from the calling thread.
+// One log per phase (precompute, relight); written into the run record. Not thread-safe: log from the calling
+// thread.
 #pragma once
 
 #include <chrono>
@@ -37,7 +38,8 @@ class StageTimer {
   StageTimer(StageLog& log, std::string stage)
       : log_(log), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
   ~StageTimer() {
-    log_.add_seconds(stage_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+    log_.add_seconds(stage_,
+                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;

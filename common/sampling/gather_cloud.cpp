@@ -119,8 +119,8 @@ class Sampler {
   GatherCloud& cloud_;
 };
 
-// Eight million particles give a layer of a cell of average importance some thirty hits at 65,536 samples, if the surface
-// crosses all 32 layers, and a place of a twentieth of the average still one or two.
+// Eight million particles give a layer of a cell of average importance some thirty hits at 65,536 samples, if
+// the surface crosses all 32 layers, and a place of a twentieth of the average still one or two.
 constexpr int64_t particles = 1 << 23;
 // A cell is large enough for this many samples of a uniform cloud: small enough to follow visibility, large
 // enough to count.

@@ -16,11 +16,11 @@
 
 namespace relight {
 
-// Particles are counted in bins: connected component and side of the surface x cell of a cubic grid x one of six normal
-// directions (axis and sign) x one of 32 layers of the cell along that axis. Component, side and layer keep buried faces
-// apart from visible ones nearby (the inside of a thin solid, the covered top of a lower step); cell and normal keep the
-// inner walls of a building apart from its outer ones. Not told apart: faces of one component and orientation closer than
-// a layer.
+// Particles are counted in bins: connected component and side of the surface x cell of a cubic grid x one of
+// six normal directions (axis and sign) x one of 32 layers of the cell along that axis. Component, side and
+// layer keep buried faces apart from visible ones nearby (the inside of a thin solid, the covered top of a
+// lower step); cell and normal keep the inner walls of a building apart from its outer ones. Not told apart:
+// faces of one component and orientation closer than a layer.
 class ImportanceMap {
  public:
   // Shoots `particles` rays from random view samples, cosine-distributed, each followed for `bounces` hits

@@ -32,8 +32,8 @@ class RayTracer {
   // Turns a hit into a surface sample seen along `direction` (normals face the ray's origin).
   SurfaceSample surface(const Hit& hit, const glm::vec3& direction) const;
 
-  // True if the open segment between two surface points is free. Each end is first moved off its surface along its
-  // geometric normal (on the side where the other end is) by offset().
+  // True if the open segment between two surface points is free. Each end is first moved off its surface
+  // along its geometric normal (on the side where the other end is) by offset().
   bool visible(const glm::vec3& p, const glm::vec3& np, const glm::vec3& q, const glm::vec3& nq) const;
   // The same from a surface point to a point in space (a light), which is not moved.
   bool visible_from_point(const glm::vec3& p, const glm::vec3& np, const glm::vec3& light) const;
@@ -42,8 +42,9 @@ class RayTracer {
   // Returns the mask of segments that are free. Positions must already be offset (see offset_point).
   uint32_t visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const;
 
-  // Point p moved off its surface to the side of n: by a distance that scales with the largest coordinate of the
-  // scene (float rounding of intersection points does too), so that scaling and moving scenes changes nothing else.
+  // Point p moved off its surface to the side of n: by a distance that scales with the largest coordinate of
+  // the scene (float rounding of intersection points does too), so that scaling and moving scenes changes
+  // nothing else.
   glm::vec3 offset_point(const glm::vec3& p, const glm::vec3& n) const { return p + n * offset_; }
   float offset() const { return offset_; }
 

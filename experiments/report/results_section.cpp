@@ -47,10 +47,13 @@ bool smallest(const Records& records, const RunRecord& record) {
 
 std::string results_section(const Records& records) {
   std::string html =
-      "<section><h2>Results</h2><table><thead><tr><th>Method</th><th class=num>Relative error</th><th class=num>Edges "
-      "left out</th><th class=num>Indirect<br>light only</th><th class=num>Un-<br>clamped</th><th class=num>RMSE</th>"
+      "<section><h2>Results</h2><table><thead><tr><th>Method</th><th class=num>Relative error</th><th "
+      "class=num>Edges "
+      "left out</th><th class=num>Indirect<br>light only</th><th class=num>Un-<br>clamped</th><th "
+      "class=num>RMSE</th>"
       "<th class=num>relMSE</th><th class=num>Bias</th><th class=num>SSIM</th><th class=num>Largest</th>"
-      "<th class=num>Pre-<br>compute</th><th class=num>Relight</th><th class=num>Memory</th></tr></thead><tbody>";
+      "<th class=num>Pre-<br>compute</th><th class=num>Relight</th><th "
+      "class=num>Memory</th></tr></thead><tbody>";
   for (const RunRecord& r : records) {
     html +=
         fmt::format("<tr{}><th>{}</th>", r.failed_stages.empty() ? "" : " class=failed", escaped(r.method));

@@ -47,6 +47,8 @@ struct WrongLight {
   const char* field;
   void (*spoil)(Light&);
 };
+// Named in the list of tests by the field, not by the bytes of a function pointer.
+void PrintTo(const WrongLight& wrong, std::ostream* out) { *out << wrong.field; }
 class WrongLights : public testing::TestWithParam<WrongLight> {};
 INSTANTIATE_TEST_SUITE_P(
     All, WrongLights,

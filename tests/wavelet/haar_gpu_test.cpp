@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <glm/glm.hpp>
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
 #include "common/gpu/context.h"
 #include "common/sampling/random.h"
@@ -13,8 +13,8 @@
 namespace relight::wavelet {
 namespace {
 
-// Both sides add the same four floats in the same order, so they agree to a few roundings of the largest value.
-// Red if a level reads the wrong ping-pong buffer, or the last level (one node) forgets coefficient 0.
+// Both sides add the same four floats in the same order, so they agree to a few roundings of the largest
+// value. Red if a level reads the wrong ping-pong buffer, or the last level (one node) forgets coefficient 0.
 TEST(HaarGpu, AgreesWithTheDoublePrecisionTransformToFloatRounding) {
   const auto context = gpu::Context::create("osmesa");
   for (const size_t n : {4u, 16u, 64u, 4096u, 65536u}) {
@@ -22,7 +22,8 @@ TEST(HaarGpu, AgreesWithTheDoublePrecisionTransformToFloatRounding) {
     std::vector<glm::dvec3> oracle(n);
     double norm = 0.0;
     for (size_t i = 0; i < n; ++i) {
-      values[i] = glm::vec4(random_float(1, 2, i, 0), random_float(1, 2, i, 1), random_float(1, 2, i, 2), 0.0f);
+      values[i] =
+          glm::vec4(random_float(1, 2, i, 0), random_float(1, 2, i, 1), random_float(1, 2, i, 2), 0.0f);
       oracle[i] = glm::dvec3(values[i]);
       norm += glm::dot(oracle[i], oracle[i]);
     }
@@ -33,7 +34,8 @@ TEST(HaarGpu, AgreesWithTheDoublePrecisionTransformToFloatRounding) {
     // log4(n) levels of additions, each with a relative error of at most a few 2^-24.
     const double bound = 4.0 * std::log2(static_cast<double>(n)) * 0x1p-24 * std::sqrt(norm);
     for (size_t i = 0; i < n; ++i)
-      for (int c = 0; c < 3; ++c) ASSERT_NEAR(static_cast<double>(got[i][c]), expected[i][c], bound) << n << " values, index " << i;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(static_cast<double>(got[i][c]), expected[i][c], bound) << n << " values, index " << i;
   }
 }
 

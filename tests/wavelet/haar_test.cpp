@@ -1,5 +1,5 @@
-// Haar transform against a dense matrix built from the definition, and against identities that any orthonormal basis
-// obeys.
+// Haar transform against a dense matrix built from the definition, and against identities that any
+// orthonormal basis obeys.
 #include "common/wavelet/haar.h"
 
 #include <cmath>
@@ -27,8 +27,9 @@ void morton(uint32_t index, uint32_t& x, uint32_t& y) {
   }
 }
 
-// Value at texel (x, y) of basis function `index` for a side x side array, from its definition: on its square support
-// of side s at (i s, j s) it is +-1/s, with the sign pattern of horizontal, vertical or diagonal halves.
+// Value at texel (x, y) of basis function `index` for a side x side array, from its definition: on its square
+// support of side s at (i s, j s) it is +-1/s, with the sign pattern of horizontal, vertical or diagonal
+// halves.
 double basis(uint32_t index, uint32_t x, uint32_t y, uint32_t side) {
   if (index == 0) return 1.0 / side;
   uint32_t nodes = 1;
@@ -61,7 +62,8 @@ TEST(Haar, ForwardEqualsTheDenseBasisMatrix) {
   }
 }
 
-// Red if the transform is scaled (a factor 1/2 on one level only would still pass an inverse(forward(x)) test).
+// Red if the transform is scaled (a factor 1/2 on one level only would still pass an inverse(forward(x))
+// test).
 TEST(Haar, KeepsTheNormAsParsevalSays) {
   const std::vector<double> values = random_values(4096), c = forward(values);
   double before = 0.0, after = 0.0;

@@ -25,7 +25,8 @@ SparseRows random_matrix(size_t rows, uint32_t columns) {
 
 std::vector<glm::dvec3> random_vector(size_t n) {
   std::vector<glm::dvec3> x(n);
-  for (size_t i = 0; i < n; ++i) x[i] = glm::dvec3(random_float(4, i, 0, 0), random_float(4, i, 1, 0), random_float(4, i, 2, 0));
+  for (size_t i = 0; i < n; ++i)
+    x[i] = glm::dvec3(random_float(4, i, 0, 0), random_float(4, i, 1, 0), random_float(4, i, 2, 0));
   return x;
 }
 
@@ -68,7 +69,8 @@ TEST(SparseProductGpu, AgreesWithTheCpuInOneSlabAndInMany) {
     const std::vector<glm::vec4> got = y.download<glm::vec4>();
     // About 85 float products of size <= 0.5 summed in order: error below 85^2/2 x 2^-24 x 0.5.
     for (size_t r = 0; r < rows; ++r)
-      for (int c = 0; c < 3; ++c) ASSERT_NEAR(got[r][c], expected[r][c] * scale[r][c], 1e-4f) << "row " << r << ", blocks of " << block;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(got[r][c], expected[r][c] * scale[r][c], 1e-4f) << "row " << r << ", blocks of " << block;
   }
 }
 
