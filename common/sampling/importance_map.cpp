@@ -18,11 +18,16 @@ constexpr uint64_t stream = 0x11fe51de5ull;
 constexpr float layers = 32.0f;
 
 struct Particle {
-  uint64_t bin;
+  uint64_t bin, layer;
   float weight;  // 0: no hit
 };
 
 float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+int main_axis(const glm::vec3& n) {
+  const glm::vec3 a = glm::abs(n);
+  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
 
 }  // namespace
 
@@ -32,7 +37,7 @@ ImportanceMap::ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buf
       cell_(cell),
       component_(connected_components(weld_positions(tracer.scene().positions), tracer.scene().triangles)) {
   const auto length = static_cast<size_t>(bounces);
-  std::vector<Particle> hits(static_cast<size_t>(particles) * length, Particle{0, 0.0f});
+  std::vector<Particle> hits(static_cast<size_t>(particles) * length, Particle{0, 0, 0.0f});
   const auto shoot = [&](int64_t p) {
     const auto number = static_cast<uint64_t>(p);
     SurfaceSample at = buffer.indirect[random_bits(seed, stream, number, 0) % buffer.indirect.size()];
@@ -47,7 +52,8 @@ ImportanceMap::ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buf
       if (!hit.valid) return;
       at = tracer.surface(hit, direction);
       const bool flipped = glm::dot(scene_.area_normal(at.triangle), at.geometric_normal) < 0.0f;
-      hits[static_cast<size_t>(p) * length + b] = {bin(at.position, at.triangle, flipped), weight};
+      const uint64_t key = bin(at.position, at.triangle, flipped);
+      hits[static_cast<size_t>(p) * length + b] = {key, layer(key, at.position, at.triangle), weight};
     }
   };
   if (buffer.indirect.empty()) return;
@@ -55,14 +61,14 @@ ImportanceMap::ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buf
   for (const Particle& hit : hits) {  // in order: the sums must not depend on the number of threads
     if (hit.weight == 0.0f) continue;
     weights_[hit.bin] += static_cast<double>(hit.weight);
+    reached_.insert(hit.layer);
     total_ += static_cast<double>(hit.weight);
   }
 }
 
 uint64_t ImportanceMap::bin(const glm::vec3& position, uint32_t triangle, bool flipped) const {
   const glm::vec3 n = flipped ? -scene_.area_normal(triangle) : scene_.area_normal(triangle);
-  const glm::vec3 a = glm::abs(n);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  const int axis = main_axis(n);
   const auto direction = static_cast<uint64_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
   // Points of a face that lies on the border between two cells are rounded to either: shifted by an odd
   // fraction of a cell, which makes axis-aligned faces on a border unlikely; a face cut in two costs only
@@ -71,13 +77,19 @@ uint64_t ImportanceMap::bin(const glm::vec3& position, uint32_t triangle, bool f
     return static_cast<uint64_t>(
         std::max(0.0f, std::floor((position[d] - scene_.bounds.lo[d]) / cell_ + 0.37f)));
   };
-  // The height along the normal's axis, in fine layers: the buried top of a lower step has the component,
-  // side and normal of the visible one above it.
-  const auto layer = static_cast<uint64_t>(
-      std::max(0.0f, std::floor((position[axis] - scene_.bounds.lo[axis]) / cell_ * layers + 0.37f)));
-  uint64_t key = hash_combine(hash_combine(component_[triangle], flipped ? 1 : 0), layer);
+  uint64_t key = hash_combine(component_[triangle], flipped ? 1 : 0);
   for (int d = 0; d < 3; ++d) key = hash_combine(key, coordinate(d));
   return hash_combine(key, direction);
+}
+
+uint64_t ImportanceMap::layer(uint64_t bin, const glm::vec3& position, uint32_t triangle) const {
+  const int axis = main_axis(scene_.area_normal(triangle));
+  const float height = (position[axis] - scene_.bounds.lo[axis]) / cell_;
+  return hash_combine(bin, static_cast<uint64_t>(std::max(0.0f, std::floor(height * layers + 0.37f))));
+}
+
+bool ImportanceMap::reached(const glm::vec3& position, uint32_t triangle, bool flipped) const {
+  return reached_.contains(layer(bin(position, triangle, flipped), position, triangle));
 }
 
 double ImportanceMap::weight(uint64_t bin) const {

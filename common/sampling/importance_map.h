@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "common/sampling/deep_frame_buffer.h"
@@ -17,10 +18,10 @@
 namespace relight {
 
 // Particles are counted in bins: connected component and side of the surface x cell of a cubic grid x one of
-// six normal directions (axis and sign) x one of 32 layers of the cell along that axis. Component, side and
-// layer keep buried faces apart from visible ones nearby (the inside of a thin solid, the covered top of a
-// lower step); cell and normal keep the inner walls of a building apart from its outer ones. Not told apart:
-// faces of one component and orientation closer than a layer.
+// six normal directions (axis and sign); cell and normal keep the inner walls of a building apart from its
+// outer ones. Whether a place was reached at all is kept for 32 layers of each cell along that axis, so that
+// buried faces (the covered top of a lower step) are told from visible ones nearby. Not told apart: faces of
+// one component and orientation closer than a layer.
 class ImportanceMap {
  public:
   // Shoots `particles` rays from random view samples, cosine-distributed, each followed for `bounces` hits
@@ -33,13 +34,18 @@ class ImportanceMap {
   uint64_t bin(const glm::vec3& position, uint32_t triangle, bool flipped) const;
   // Total weight of the particles in a bin.
   double weight(uint64_t bin) const;
+  // Did any particle land in the layer of this point's bin?
+  bool reached(const glm::vec3& position, uint32_t triangle, bool flipped) const;
   double total_weight() const { return total_; }
 
  private:
+  uint64_t layer(uint64_t bin, const glm::vec3& position, uint32_t triangle) const;
+
   const Scene& scene_;
   float cell_;
   std::vector<uint32_t> component_;  // by triangle
   std::unordered_map<uint64_t, double> weights_;
+  std::unordered_set<uint64_t> reached_;  // layers
   double total_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 #include "common/sampling/surface_pieces.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 
 namespace relight {
@@ -57,27 +58,18 @@ std::vector<SurfacePiece> cut_surfaces(const Scene& scene, double largest) {
 
 void apply_importance(std::vector<SurfacePiece>& pieces, const ImportanceMap& map, float least, bool binary) {
   if (!(map.total_weight() > 0.0)) return;  // the camera sees nothing: no reason to prefer any surface
-  std::vector<uint64_t> bin(pieces.size());
+  std::vector<SurfacePiece> reached;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(reached),
+               [&map](const SurfacePiece& p) { return map.reached(p.centroid, p.triangle, p.flipped); });
+  if (reached.empty()) return;  // no particle landed in the layer of a piece's centroid
   std::unordered_map<uint64_t, double> area;
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    bin[i] = map.bin(pieces[i].centroid, pieces[i].triangle, pieces[i].flipped);
-    area[bin[i]] += pieces[i].area;
+  for (const SurfacePiece& p : reached) area[map.bin(p.centroid, p.triangle, p.flipped)] += p.area;
+  const double mean = map.total_weight() / total_area(reached);
+  for (SurfacePiece& p : reached) {
+    const uint64_t bin = map.bin(p.centroid, p.triangle, p.flipped);
+    p.importance = binary ? 1.0f : std::max(least, static_cast<float>(map.weight(bin) / area[bin] / mean));
   }
-  double hit_area = 0.0;
-  std::vector<double> density(pieces.size(), 0.0);
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    density[i] = map.weight(bin[i]) / area[bin[i]];
-    if (density[i] > 0.0) hit_area += pieces[i].area;
-  }
-  if (!(hit_area > 0.0)) return;  // no particle's bin holds the centroid of a piece
-  const double mean = map.total_weight() / hit_area;
-  size_t kept = 0;
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    if (!(density[i] > 0.0)) continue;
-    pieces[kept] = pieces[i];
-    pieces[kept++].importance = binary ? 1.0f : std::max(least, static_cast<float>(density[i] / mean));
-  }
-  pieces.resize(kept);
+  pieces = std::move(reached);
 }
 
 double total_area(const std::vector<SurfacePiece>& pieces) {
