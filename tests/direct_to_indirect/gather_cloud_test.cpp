@@ -146,8 +146,8 @@ TEST(GatherCloudForView, LeavesTheInsideOfASolidAlone) {
 // -53 % on `temple`).
 TEST(GatherCloudForView, LeavesBuriedFacesAlone) {
   Scene scene = tiny::empty_scene();
-  tiny::add_box(scene, {-2, -0.2f, -2}, {2, 0, 2});
-  tiny::add_box(scene, {-2, -0.4f, -2}, {2, -0.2f, 2});
+  tiny::add_box(scene, {-2, -0.05f, -2}, {2, 0, 2});
+  tiny::add_box(scene, {-2, -0.1f, -2}, {2, -0.05f, 2});
   tiny::add_quad(scene, {-2, 1, -2}, {4, 0, 0}, {0, 0, 4});  // a ceiling to gather from
   scene.camera.eye = {0, 0.5f, 6};
   scene.camera.target = {0, 0.5f, 0};
@@ -160,7 +160,7 @@ TEST(GatherCloudForView, LeavesBuriedFacesAlone) {
   for (const SurfaceSample& s : cloud.samples) {
     if (s.geometric_normal.y < 0.5f) continue;
     visible += std::abs(s.position.y) < 1e-3f;
-    buried += std::abs(s.position.y + 0.2f) < 1e-3f;
+    buried += std::abs(s.position.y + 0.05f) < 1e-3f;
   }
   EXPECT_GT(visible, 1000);
   EXPECT_EQ(buried, 0);
