@@ -123,8 +123,8 @@ TEST(FinalGather, HasTheSameBitsForOneAndTwoThreads) {
 }
 
 // A change of variables: without truncation and with single-sample links, dividing columns and multiplying
-// the light by the same factors changes nothing. Red if a row is divided by another member's factor, or by
-// the factor's square root.
+// the light by the same factors changes nothing. Red if an element is divided by the square
+// root of its factor. Links to single samples only: which member's factor a larger link takes is not tested.
 TEST(FinalGather, ColumnScalingChangesNoUntruncatedProduct) {
   GatherSetup s(tiny::room(), 12, 12, 1024);
   const FinalGatherSettings settings = exact_settings(1024);
