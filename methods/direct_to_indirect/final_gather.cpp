@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "methods/direct_to_indirect/light_refit.h"
 #include "methods/direct_to_indirect/selection.h"
 #include "methods/direct_to_indirect/tile_gather.h"
 #include "methods/direct_to_indirect/view_tiles.h"
@@ -23,6 +25,7 @@ struct Totals {
 // Scratch of one worker thread.
 struct Worker {
   TileGather gather;
+  std::optional<LightRefit> refit;
   std::vector<Candidate> candidates;
   Totals totals;
 };
@@ -49,6 +52,7 @@ class Builder {
       if (samples[i] && samples[i]->valid) append_row(worker, i, *samples[i], rows.entries);
       rows.end[i] = static_cast<uint32_t>(rows.entries.size());
     }
+    if (worker.refit) refit(worker, rows);
   }
 
   SparseRows finish() {
@@ -76,9 +80,18 @@ class Builder {
     std::array<uint32_t, lanes> end{};
   };
 
+  static void refit(Worker& worker, TileRows& rows) {
+    std::array<std::span<SparseEntry>, lanes> kept;
+    for (size_t i = 0; i < lanes; ++i) {
+      const uint32_t first = i == 0 ? 0 : rows.end[i - 1];
+      kept[i] = std::span(rows.entries).subspan(first, rows.end[i] - first);
+    }
+    worker.refit->refit(worker.gather.coefficients(), kept);
+  }
+
   void append_row(Worker& worker, size_t lane, const SurfaceSample& sample, std::vector<SparseEntry>& out) {
     const float factor = settings_.shared_budget ? row_factor(sample) : 1.0f;
-    collect_candidates(worker.gather.coefficients(), lane, settings_.selection, columns_, factor,
+    collect_candidates(worker.gather.coefficients(), lane, settings_.support_exponent, columns_, factor,
                        worker.candidates);
     double energy = 0.0, kept = 0.0;
     for (const Candidate& c : worker.candidates) energy += static_cast<double>(c.entry.value) * c.entry.value;
@@ -104,16 +117,17 @@ class Builder {
 
 }  // namespace
 
-SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                                const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                                const FinalGatherSettings& settings, std::span<const float> column_scale,
+SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSettings& settings,
                                 Progress& progress, StageLog& log) {
-  const float threshold = settings.shared_budget ? shared_budget_threshold(tracer, buffer, cloud, hierarchy,
-                                                                           settings, column_scale)
-                                                 : 0.0f;
-  Builder builder(buffer, settings, static_cast<uint32_t>(cloud.samples.size()), threshold);
+  const float threshold =
+      settings.shared_budget
+          ? shared_budget_threshold(in.tracer, in.buffer, in.cloud, in.hierarchy, settings, in.column_scale)
+          : 0.0f;
+  Builder builder(in.buffer, settings, static_cast<uint32_t>(in.cloud.samples.size()), threshold);
   tbb::enumerable_thread_specific<Worker> workers([&] {
-    return Worker{TileGather(tracer, cloud, hierarchy, settings, column_scale), {}, {}};
+    Worker worker{TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale), {}, {}, {}};
+    if (in.training.count > 0) worker.refit.emplace(in.training, settings.refit_ridge);
+    return worker;
   });
   progress.start("final gather", builder.tiles());
   tbb::parallel_for(0, builder.tiles(), [&](int t) {

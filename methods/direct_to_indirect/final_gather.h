@@ -21,10 +21,9 @@
 #include "common/sampling/gather_cloud.h"
 #include "common/tracing/ray_tracer.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/training_lights.h"
 
 namespace relight::direct_to_indirect {
-
-enum class Selection { area, magnitude };
 
 struct FinalGatherSettings {
   float link_threshold =
@@ -32,11 +31,22 @@ struct FinalGatherSettings {
   float form_factor_clamp = 0.1f;  // largest element
   int coefficients = 100;          // kept a row, or on average a row with shared_budget
   bool shared_budget = false;      // all rows share coefficients x rows, the heaviest of all are kept
-  Selection selection = Selection::area;
+  float support_exponent =
+      1.0f;                  // coefficients are ranked by |c| x support^this: 1 by area (paper), 0 by size
+  float refit_ridge = 0.3f;  // see light_refit.h
   uint64_t seed = 1;
 
   // Most that one row may keep. A shared budget is mostly used up below four times the mean.
   size_t row_limit() const { return static_cast<size_t>(coefficients) * (shared_budget ? 8 : 1); }
+};
+
+struct FinalGatherInput {
+  const RayTracer& tracer;
+  const DeepFrameBuffer& buffer;
+  const GatherCloud& cloud;  // in tree order
+  const GatherHierarchy& hierarchy;
+  std::span<const float> column_scale;  // by which columns are divided (column_scaling.h), or empty
+  const TrainingLights& training;       // the kept coefficients are refitted to them; none: they are not
 };
 
 // One row a view sample of `buffer` (empty for invalid ones), one column a wavelet coefficient of the ordered
@@ -44,10 +54,7 @@ struct FinalGatherSettings {
 // Parallel over tiles of 4x4 pixels, whose view samples share their links' cut (refined for the closest of
 // them) and random members, so that visibility is tested by coherent packets of 16 rays. Deterministic for
 // any number of threads.
-// column_scale: one factor a gather sample by which its column is divided (column_scaling.h), or empty.
-SparseRows compute_final_gather(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                                const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                                const FinalGatherSettings& settings, std::span<const float> column_scale,
+SparseRows compute_final_gather(const FinalGatherInput& input, const FinalGatherSettings& settings,
                                 Progress& progress, StageLog& log);
 
 }  // namespace relight::direct_to_indirect

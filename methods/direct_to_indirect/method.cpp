@@ -18,6 +18,7 @@
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
 #include "methods/direct_to_indirect/knobs.h"
+#include "methods/direct_to_indirect/training_lights.h"
 
 namespace relight {
 namespace direct_to_indirect {
@@ -29,8 +30,9 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
-  settings.selection = knobs.choice("selection") == "area" ? Selection::area : Selection::magnitude;
+  settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
+  settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
   settings.seed = context.seed;
   return settings;
 }
@@ -58,9 +60,17 @@ Artefact precompute(const PrepareContext& context) {
     StageTimer timer(context.log, "column_scaling");
     scale = mean_row_scaling(context.tracer, context.buffer, artefact.cloud, hierarchy, settings);
   }
+  TrainingLights training;
+  const auto lights = static_cast<uint32_t>(knobs.integer("refit_lights"));
+  if (lights > 0) {
+    StageTimer timer(context.log, "training_lights");
+    training =
+        make_training_lights(context.tracer, context.buffer, artefact.cloud, scale, lights, context.seed);
+    context.log.bytes("training_lights", static_cast<int64_t>(training.response.size() * sizeof(float)));
+  }
   StageTimer timer(context.log, "final_gather");
-  artefact.final_gather = compute_final_gather(context.tracer, context.buffer, artefact.cloud, hierarchy,
-                                               settings, scale, context.progress, context.log);
+  const FinalGatherInput input{context.tracer, context.buffer, artefact.cloud, hierarchy, scale, training};
+  artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;
 }

@@ -12,14 +12,14 @@
 
 namespace relight::direct_to_indirect {
 
-void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, Selection selection,
+void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, float support_exponent,
                         uint32_t columns, float row_factor, std::vector<Candidate>& out) {
   out.clear();
   for (const LaneCoefficient& c : coefficients) {
     const float value = c.value[lane];
     if (value == 0.0f) continue;
-    const float area =
-        selection == Selection::area ? static_cast<float>(wavelet::support(c.index, columns)) : 1.0f;
+    const auto support = static_cast<float>(wavelet::support(c.index, columns));
+    const float area = support_exponent == 1.0f ? support : std::pow(support, support_exponent);
     out.push_back({std::abs(value) * area * row_factor, {c.index, value}});
   }
 }
@@ -58,8 +58,8 @@ float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& bu
     for (size_t lane = 0; lane < lanes; ++lane) {
       if (!samples[lane] || !samples[lane]->valid) continue;
       ++rows[i];
-      collect_candidates(gather.coefficients(), lane, settings.selection, columns, row_factor(*samples[lane]),
-                         candidates);
+      collect_candidates(gather.coefficients(), lane, settings.support_exponent, columns,
+                         row_factor(*samples[lane]), candidates);
       keep_largest(candidates, limit);
       for (const Candidate& c : candidates) weights[i].push_back(c.weight);
     }

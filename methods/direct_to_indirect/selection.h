@@ -13,9 +13,8 @@ struct Candidate {
   SparseEntry entry;
 };
 
-// The coefficients of one lane that are not zero, with weight |c| x support area (Selection::area) or |c|,
-// times row_factor.
-void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, Selection selection,
+// The coefficients of one lane that are not zero, with weight |c| x support^support_exponent x row_factor.
+void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, float support_exponent,
                         uint32_t columns, float row_factor, std::vector<Candidate>& out);
 
 // Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.

@@ -35,10 +35,12 @@ struct GatherSetup {
     return make_gather_cloud(tracer, pieces, samples, 1);
   }
 
-  SparseRows final_gather(const FinalGatherSettings& settings, const std::vector<float>& column_scale = {}) {
+  SparseRows final_gather(const FinalGatherSettings& settings, const std::vector<float>& column_scale = {},
+                          const TrainingLights& training = {}) {
     Progress progress(true);
     StageLog log;
-    return compute_final_gather(tracer, buffer, cloud, hierarchy, settings, column_scale, progress, log);
+    return compute_final_gather({tracer, buffer, cloud, hierarchy, column_scale, training}, settings,
+                                progress, log);
   }
 };
 
