@@ -18,20 +18,18 @@ RL_FUNCTION float ashikhmin_shirley_half_pdf(BrdfParams brdf, vec3 h) {
 // Equation 4.
 RL_FUNCTION vec3 ashikhmin_shirley_eval(BrdfParams brdf, vec3 o, vec3 i) {
   if (!(o.z > 0.0f) || !(i.z > 0.0f)) return vec3(0.0f);
-  vec3 h = brdf_half_vector(o, i);
-  float cosine = dot(h, o);
-  float denominator = 4.0f * cosine * max(o.z, i.z);
+  vec4 h = brdf_half_vector(o, i);
+  float denominator = 4.0f * h.w * max(o.z, i.z);
   // Both directions within 1e-10 of the horizon, where h is rounding and f cos may overflow.
   if (!(denominator > 1e-20f)) return vec3(0.0f);
-  return brdf_fresnel(brdf, cosine) * (ashikhmin_shirley_half_pdf(brdf, h) / denominator);
+  return brdf_fresnel(brdf, h.w) * (ashikhmin_shirley_half_pdf(brdf, vec3(h)) / denominator);
 }
 
 // Equation 8. Half vectors seen from behind give directions below the surface: the density counts them.
 RL_FUNCTION float ashikhmin_shirley_pdf(BrdfParams brdf, vec3 o, vec3 i) {
-  vec3 h = brdf_half_vector(o, i);
-  float cosine = abs(dot(h, o));
-  if (!(cosine > 1e-10f)) return 0.0f;
-  return ashikhmin_shirley_half_pdf(brdf, h) / (4.0f * cosine);
+  vec4 h = brdf_half_vector(o, i);
+  if (!(h.w > 1e-10f)) return 0.0f;
+  return ashikhmin_shirley_half_pdf(brdf, vec3(h)) / (4.0f * h.w);
 }
 
 // Equations 9 and 10; the angle of all four quadrants at once.

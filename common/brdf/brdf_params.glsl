@@ -57,13 +57,15 @@ RL_FUNCTION vec3 brdf_to_local(mat3 frame, vec3 w) {
 
 RL_FUNCTION float brdf_mean(vec3 c) { return (c.x + c.y + c.z) * (1.0f / 3.0f); }
 
-// Unit vector half-way between the unit vectors a and b; 0 if they are opposite.
-RL_FUNCTION vec3 brdf_half_vector(vec3 a, vec3 b) {
+// Unit vector half-way between the unit vectors a and b, and its cosine to either; 0 if they are opposite. The cosine
+// from the length of the sum: symmetric in a and b to the last bit, and exact where a product would cancel.
+RL_FUNCTION vec4 brdf_half_vector(vec3 a, vec3 b) {
   vec3 sum = a + b;
   float squared = dot(sum, sum);
   // Below 1e-15 long, a sum of unit vectors is all rounding.
-  if (!(squared > 1e-30f)) return vec3(0.0f);
-  return sum * (1.0f / sqrt(squared));
+  if (!(squared > 1e-30f)) return vec4(0.0f);
+  float length_of_sum = sqrt(squared);
+  return vec4(sum * (1.0f / length_of_sum), 0.5f * length_of_sum);
 }
 
 // Schlick's approximation, Computer Graphics Forum 13(3), 1994, equation 15, but rising from F0 = glossy to

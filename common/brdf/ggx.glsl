@@ -22,20 +22,20 @@ RL_FUNCTION float ggx_stretched_length(BrdfParams brdf, vec3 w) {
 // D F G2/(4 o.z i.z) with G2 = 1/(1 + Lambda(o) + Lambda(i)) (Heitz 2014 equation 99); the cosines cancel.
 RL_FUNCTION vec3 ggx_eval(BrdfParams brdf, vec3 o, vec3 i) {
   if (!(o.z > 0.0f) || !(i.z > 0.0f)) return vec3(0.0f);
-  vec3 h = brdf_half_vector(o, i);
+  vec4 h = brdf_half_vector(o, i);
   float masking = o.z * ggx_stretched_length(brdf, i) + i.z * ggx_stretched_length(brdf, o);
   // Both directions on the horizon to 1e-20 or so.
   if (!(h.z > 0.0f) || !(masking > 1e-20f)) return vec3(0.0f);
-  return brdf_fresnel(brdf, dot(o, h)) * (0.5f * ggx_distribution(brdf, h) / masking);
+  return brdf_fresnel(brdf, h.w) * (0.5f * ggx_distribution(brdf, vec3(h)) / masking);
 }
 
 // Density of the visible normals (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018,
 // equation 3) over 4 o.h: D G1(o)/(4 o.z), and G1(o)/o.z = 2/(o.z + stretched length). Facets may reflect below the
 // surface: the density counts that.
 RL_FUNCTION float ggx_pdf(BrdfParams brdf, vec3 o, vec3 i) {
-  vec3 h = brdf_half_vector(o, i);
+  vec4 h = brdf_half_vector(o, i);
   if (!(o.z > 0.0f) || !(h.z > 0.0f)) return 0.0f;
-  return 0.5f * ggx_distribution(brdf, h) / (o.z + ggx_stretched_length(brdf, o));
+  return 0.5f * ggx_distribution(brdf, vec3(h)) / (o.z + ggx_stretched_length(brdf, o));
 }
 
 // Spherical caps: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, listing 3, with the
