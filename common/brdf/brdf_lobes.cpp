@@ -95,12 +95,10 @@ glm::vec2 lobe_ratios(const shader::BrdfShape& shape, int lobe) {
 }  // namespace
 
 bool GlossyPart::anisotropic() const {
-  const auto differs = [&](int lobe) {
-    const glm::vec2 ratios = lobe_ratios(shape, lobe);
-    return ratios.x != ratios.y;
-  };
+  const auto differs = [](uint32_t ratios) { return (ratios & 0xffffu) != ratios >> 16; };
   if (model() == BrdfModel::phong) return false;
-  if (model() == BrdfModel::lafortune) return differs(0) || differs(1) || differs(2);
+  if (model() == BrdfModel::lafortune)
+    return differs(shape.ratios_0) || differs(shape.ratios_1) || differs(shape.ratios_2);
   return exponent != shape.exponent_v;
 }
 
