@@ -1,25 +1,28 @@
 // Reflection models, one source for C++ (GLM) and GLSL; see common/glsl_in_cpp.h for the subset.
-// f_r = diffuse/pi + glossy (n+2)/(2 pi) cos^n(alpha), alpha between wi and the mirror direction of wo
-// (normalised Phong; the factor makes the lobe's albedo at normal incidence equal to `glossy`).
+// f_r = k_d/pi + one glossy part: Phong, Ashikhmin-Shirley, Lafortune or GGX. All are reciprocal, and reflect no more
+// than arrives if k_d + glossy <= 1 (Lafortune: see largest_albedo in brdf_lobes.h).
 #ifndef RELIGHT_BRDF
 #define RELIGHT_BRDF
 
-RL_CONST float rl_pi = 3.14159265358979323846f;
-
-struct BrdfParams {
-  vec3 diffuse;    // Lambert albedo
-  float exponent;  // Phong exponent
-  vec3 glossy;     // albedo of the glossy lobe
-};
+#include "common/brdf/brdf_params.glsl"
+#include "common/brdf/power_cosine.glsl"
+#include "common/brdf/phong.glsl"
+#include "common/brdf/ashikhmin_shirley.glsl"
+#include "common/brdf/lafortune.glsl"
+#include "common/brdf/ggx.glsl"
 
 RL_FUNCTION vec3 brdf_diffuse(BrdfParams brdf) { return brdf.diffuse * (1.0f / rl_pi); }
 
-// Value of the glossy lobe [1/sr]; n, wo, wi unit and on the same side.
+// Value of the glossy part [1/sr]; n, wo, wi unit and on the same side. From or towards below n all models but Phong
+// give 0.
 RL_FUNCTION vec3 brdf_glossy(BrdfParams brdf, vec3 n, vec3 wo, vec3 wi) {
-  vec3 mirror = n * (2.0f * dot(n, wo)) - wo;
-  float c = dot(mirror, wi);
-  if (!(c > 0.0f)) return vec3(0.0f);
-  return brdf.glossy * ((brdf.exponent + 2.0f) / (2.0f * rl_pi) * pow(c, brdf.exponent));
+  uint model = brdf_model(brdf.shape);
+  if (model == brdf_phong) return phong_eval(brdf, n, wo, wi);
+  mat3 frame = brdf_frame(brdf.shape, n);
+  vec3 o = brdf_to_local(frame, wo), i = brdf_to_local(frame, wi);
+  if (model == brdf_ashikhmin_shirley) return ashikhmin_shirley_eval(brdf, o, i);
+  if (model == brdf_lafortune) return lafortune_eval(brdf, o, i);
+  return ggx_eval(brdf, o, i);
 }
 
 RL_FUNCTION vec3 brdf_eval(BrdfParams brdf, vec3 n, vec3 wo, vec3 wi) {

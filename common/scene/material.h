@@ -1,4 +1,5 @@
-// Surface materials: textured Lambert plus one glossy lobe (normalised Phong), and emission.
+// Surface materials: textured Lambert plus one glossy part (Phong, Ashikhmin-Shirley, Lafortune or GGX), and
+// emission.
 // Surfaces reflect on both sides with the same parameters; there is no transmission.
 #pragma once
 
@@ -6,6 +7,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "common/brdf/brdf_lobes.h"
 
 namespace relight {
 
@@ -22,9 +25,16 @@ struct Material {
   std::string name = "default";
   glm::vec3 diffuse{0.5f};   // Lambert albedo; multiplied by the texture if there is one
   int diffuse_texture = -1;  // index into Scene::textures, -1 for none
-  glm::vec3 glossy{0.0f};    // albedo of the normalised Phong lobe at normal incidence
-  float exponent = 1.0f;     // Phong exponent, >= 0
+  // The glossy part as BrdfParams has it. As it stands here: no glossy part; with a colour and an exponent, a
+  // normalised Phong lobe. Other models: set_glossy_part.
+  glm::vec3 glossy{0.0f};
+  float exponent = 1.0f;
+  shader::BrdfShape shape{};
   glm::vec3 emission{0.0f};  // emitted radiance, both sides
+  GlossyPart glossy_part() const { return {glossy, exponent, shape}; }
+  void set_glossy_part(const GlossyPart& part) {
+    glossy = part.glossy, exponent = part.exponent, shape = part.shape;
+  }
   bool is_glossy() const { return glossy != glm::vec3(0.0f); }
 };
 

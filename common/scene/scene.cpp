@@ -19,6 +19,7 @@ uint64_t hash_content(const Scene& scene) {
     hash.add(m.diffuse_texture);
     hash.add(m.glossy);
     hash.add(m.exponent);
+    hash.add(m.shape);
     hash.add(m.emission);
   }
   for (const Texture& t : scene.textures) {

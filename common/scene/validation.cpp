@@ -97,15 +97,24 @@ glm::vec3 brightest_texel(const Scene& scene, const Material& material) {
   return brightest;
 }
 
-// Scales the diffuse part, hue kept, so that it reflects no more than the glossy lobe leaves over.
+// Limits the glossy part to an albedo of 1 at every angle, and returns its largest.
+glm::vec3 limit_glossy(Material& material) {
+  material.glossy = glm::min(material.glossy, glm::vec3(1.0f));
+  const glm::vec3 largest = largest_albedo(material.glossy_part());
+  const float most = std::max({largest.x, largest.y, largest.z});
+  if (!(most > 1.0f)) return largest;
+  material.glossy /= most;
+  return largest / most;
+}
+
+// Scales the diffuse part, hue kept, so that it reflects no more than the glossy part leaves over.
 bool limit_albedo(const Scene& scene, Material& material) {
   const Material before = material;
-  material.glossy = glm::min(material.glossy, glm::vec3(1.0f));
+  const glm::vec3 glossy = limit_glossy(material);
   const glm::vec3 diffuse = material.diffuse * brightest_texel(scene, material);
   float scale = 1.0f;
   for (int k = 0; k < 3; ++k)
-    if (diffuse[k] + material.glossy[k] > 1.0f)
-      scale = std::min(scale, (1.0f - material.glossy[k]) / diffuse[k]);
+    if (diffuse[k] + glossy[k] > 1.0f) scale = std::min(scale, (1.0f - glossy[k]) / diffuse[k]);
   material.diffuse *= scale;
   return material.diffuse != before.diffuse || material.glossy != before.glossy;
 }
@@ -118,8 +127,9 @@ void repair_materials(Scene& scene) {
     int64_t changed = clamp_negative(m.diffuse, m, "diffuse", scene.name);
     changed += clamp_negative(m.glossy, m, "glossy", scene.name);
     changed += clamp_negative(m.emission, m, "emission", scene.name);
-    if (!std::isfinite(m.exponent))
-      fail("{}: material '{}': exponent is {}; it must be finite", scene.name, m.name, m.exponent);
+    for (const float exponent : {m.exponent, m.shape.exponent_v, m.shape.exponent_w})
+      if (!std::isfinite(exponent))
+        fail("{}: material '{}': exponent is {}; it must be finite", scene.name, m.name, exponent);
     changed += m.exponent < 0.0f;
     m.exponent = std::max(m.exponent, 0.0f);
     negative += changed > 0;

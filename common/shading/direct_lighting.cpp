@@ -18,7 +18,8 @@ namespace {
 
 constexpr int local_size = 64;
 constexpr uint32_t no_index = std::numeric_limits<uint32_t>::max();
-constexpr int samples_binding = 0, radiance_binding = 1, visibility_binding = 2, report_binding = 3;
+constexpr int samples_binding = 0, radiance_binding = 1, visibility_binding = 2, report_binding = 3,
+              shapes_binding = 4;
 
 }  // namespace
 
@@ -130,10 +131,11 @@ void DirectLighting::Impl::shade_set(const Request& request, const gpu::Buffer* 
   const auto size = static_cast<int64_t>(request.samples->size());
   program.set("eye", request.samples->eye());
   program.set("all_lobes", request.lobes == Lobes::all ? 1 : 0);
+  program.set("has_shapes", request.samples->has_shapes() ? 1 : 0);
   report.bind_storage(report_binding);
   for (int64_t begin = 0; begin < size; begin += slab) {
     const int64_t count = std::min(slab, size - begin);
-    request.samples->bind_range(samples_binding, begin, count);
+    request.samples->bind_range(samples_binding, shapes_binding, begin, count);
     request.out->bind_storage(radiance_binding, begin * 16, count * 16);
     if (visibility) visibility->bind_storage(visibility_binding, begin / 8, (count + 31) / 32 * 4);
     program.set("sample_count", static_cast<uint32_t>(count));

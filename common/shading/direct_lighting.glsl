@@ -24,14 +24,18 @@ layout(std430, binding = 3) buffer Report {
   uint non_finite_count;
   uint non_finite_first;  // smallest index
 };
+layout(std430, binding = 4) readonly buffer Shapes { BrdfShape shapes[]; };  // only where has_shapes
 
 uniform uint sample_count;
 uniform uint first_sample;  // index of samples[0] in its set, for reports
 uniform vec3 eye;
 uniform int all_lobes;
+uniform int has_shapes;  // 0: all glossy parts are Phong
 uniform int first_light;
 uniform int shadowed;
 uniform vec4 light_position_type, light_direction_outer, light_intensity_inner;
+
+const BrdfShape no_shape = BrdfShape(0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, 0u);
 
 float visible(uint i, vec3 position, vec3 ng) {
   if (shadowed == 0) return 1.0;
@@ -51,7 +55,8 @@ vec3 reflected(uint i) {
   vec3 irradiance = light_irradiance(light, position, ns, ng);
   if (irradiance == vec3(0.0)) return vec3(0.0);
   BrdfParams brdf = BrdfParams(vec3(s.ngyz_diffuse_rg.zw, s.diffuse_b_glossy.x), s.position_exponent.w,
-                               s.diffuse_b_glossy.yzw);
+                               s.diffuse_b_glossy.yzw, no_shape);
+  if (has_shapes != 0) brdf.shape = shapes[i];
   vec3 f = brdf_diffuse(brdf);
   if (all_lobes != 0) {
     f = brdf_eval(brdf, ns, normalize(eye - position), normalize(light_position_type.xyz - position));

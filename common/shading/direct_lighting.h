@@ -23,15 +23,17 @@ class GpuSamples {
   const std::vector<SurfaceSample>& host() const { return samples_; }
   const glm::vec3& eye() const { return eye_; }
   int64_t bytes() const;
-  void bind(int first_binding) const;
   // Binds samples [first, first + count) for direct_lighting.glsl: all of a large view may exceed the largest
-  // storage block (128 MiB under llvmpipe).
-  void bind_range(int binding, int64_t first, int64_t count) const;
+  // storage block (128 MiB under llvmpipe). Where all glossy parts are Phong there are no shapes, and
+  // something else is bound in their place.
+  void bind_range(int samples_binding, int shapes_binding, int64_t first, int64_t count) const;
+  bool has_shapes() const { return shapes_.bytes() > 0; }
 
  private:
   std::vector<SurfaceSample> samples_;
   glm::vec3 eye_;
   gpu::Buffer data_;
+  gpu::Buffer shapes_;  // BrdfShape of each sample; empty if all are zero
 };
 
 enum class Shadows { map, traced };

@@ -1,4 +1,4 @@
-// From a hit to a surface sample: interpolation, two-sided normals, textures.
+// From a hit to a surface sample: interpolation, two-sided normals, textures, tangents.
 #include <cmath>
 
 #include "common/tracing/ray_tracer.h"
@@ -30,6 +30,24 @@ glm::vec3 shading_normal(const glm::vec3& sum, const glm::vec3& ng) {
   return cosine < 0.0f ? -n : ng;
 }
 
+// Angle about n, as BrdfShape has it, of the direction in which texture coordinate u grows over the triangle
+// (constant over each triangle). 0, the frame's first axis, where the triangle has no such direction. Which
+// way round the bitangent goes does not matter: every model is symmetric about the (u, n) plane.
+float tangent_angle(const Scene& scene, const Triangle& triangle, const glm::vec3& n) {
+  const auto [i, j, k] = triangle.v;
+  const glm::dvec3 origin(scene.positions[i]);
+  const glm::dvec3 a = glm::dvec3(scene.positions[j]) - origin, b = glm::dvec3(scene.positions[k]) - origin;
+  const glm::dvec2 uv_a = glm::dvec2(scene.uvs[j]) - glm::dvec2(scene.uvs[i]);
+  const glm::dvec2 uv_b = glm::dvec2(scene.uvs[k]) - glm::dvec2(scene.uvs[i]);
+  const double determinant = uv_a.x * uv_b.y - uv_b.x * uv_a.y;
+  if (determinant == 0.0 || !std::isfinite(determinant)) return 0.0f;
+  const glm::dvec3 along_u = (uv_b.y * a - uv_a.y * b) / determinant;
+  const glm::mat3 frame = shader::brdf_base_frame(n);
+  const double x = glm::dot(glm::dvec3(frame[0]), along_u), y = glm::dot(glm::dvec3(frame[1]), along_u);
+  const float angle = static_cast<float>(std::atan2(y, x));
+  return std::isfinite(angle) ? angle : 0.0f;
+}
+
 }  // namespace
 
 SurfaceSample RayTracer::surface(const Hit& hit, const glm::vec3& direction) const {
@@ -53,6 +71,9 @@ SurfaceSample RayTracer::surface(const Hit& hit, const glm::vec3& direction) con
         scene_.textures[static_cast<size_t>(material.diffuse_texture)].sample(interpolate(scene_.uvs));
   sample.glossy = material.glossy;
   sample.exponent = material.exponent;
+  sample.shape = material.shape;
+  if (material.glossy_part().anisotropic())
+    sample.shape.tangent = tangent_angle(scene_, triangle, sample.shading_normal);
   sample.emission = material.emission;
   sample.triangle = hit.triangle;
   sample.material = triangle.material;

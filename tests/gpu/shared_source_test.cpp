@@ -57,7 +57,7 @@ Input random_input(uint64_t i) {
 }
 
 Output on_cpu(const Input& a) {
-  const shader::BrdfParams brdf{glm::vec3(a.diffuse_exponent), a.diffuse_exponent.w, glm::vec3(a.glossy)};
+  const shader::BrdfParams brdf{glm::vec3(a.diffuse_exponent), a.diffuse_exponent.w, glm::vec3(a.glossy), {}};
   const glm::vec3 ns(a.ns), wo(a.wo), wi(a.wi);
   return {glm::vec4(shader::light_intensity(a.light, wi), 0.0f),
           glm::vec4(shader::light_irradiance(a.light, glm::vec3(a.position), ns, glm::vec3(a.ng)), 0.0f),

@@ -21,7 +21,8 @@ void main() {
   uint i = item_index();
   if (i >= count) return;
   Input a = inputs[i];
-  BrdfParams brdf = BrdfParams(a.diffuse_exponent.xyz, a.diffuse_exponent.w, a.glossy.xyz);
+  BrdfParams brdf = BrdfParams(a.diffuse_exponent.xyz, a.diffuse_exponent.w, a.glossy.xyz,
+                               BrdfShape(0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, 0u));
   outputs[i].intensity = vec4(light_intensity(a.light, a.wi.xyz), 0.0);
   outputs[i].irradiance = vec4(light_irradiance(a.light, a.position.xyz, a.ns.xyz, a.ng.xyz), 0.0);
   outputs[i].brdf = vec4(brdf_eval(brdf, a.ns.xyz, a.wo.xyz, a.wi.xyz), 0.0);

@@ -22,7 +22,7 @@ glm::vec3 direction(double cosine, double phi) {
 bool unit(const glm::vec3& v) { return std::abs(glm::length(v) - 1.0f) < 1e-5f; }
 
 BrdfParams make_brdf(float diffuse, float glossy, float exponent) {
-  return {glm::vec3(diffuse), exponent, glm::vec3(glossy)};
+  return {glm::vec3(diffuse), exponent, glm::vec3(glossy), {}};
 }
 
 // Red if: a frame degenerates near +z, -z or anywhere else, or is left-handed.

@@ -23,12 +23,14 @@ Material convert_material(const FileMaterial& file) {
   // Some exporters write Kd 0 beside a texture; multiplied, the texture would be lost.
   if (file.has_texture && diffuse == glm::vec3(0.0f) && metal == 0.0f) diffuse = glm::vec3(1.0f);
   if (file.specular_from_base) {
+    const float roughness = file.roughness >= 0.0f ? file.roughness : 1.0f;  // glTF's default
+    const float alpha = roughness * roughness;
     material.diffuse = diffuse * (1.0f - metal);
-    material.glossy = glm::mix(glm::vec3(0.04f), diffuse, metal);
-  } else {
-    material.diffuse = metal >= 1.0f ? glm::vec3(0.0f) : diffuse;
-    material.glossy = file.specular;
+    material.set_glossy_part(ggx_part(glm::mix(glm::vec3(0.04f), diffuse, metal), alpha, alpha));
+    return material;
   }
+  material.diffuse = metal >= 1.0f ? glm::vec3(0.0f) : diffuse;
+  material.glossy = file.specular;
   if (material.is_glossy())
     material.exponent = file.roughness >= 0.0f ? phong_exponent_from_roughness(file.roughness)
                                                : std::clamp(file.phong_exponent, 0.0f, 1e5f);

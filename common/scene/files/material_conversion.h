@@ -1,4 +1,5 @@
-// From the material models of mesh files to relight's Lambert + normalised Phong lobe.
+// From the material models of mesh files to relight's: glTF to Lambert + GGX, MTL to Lambert + normalised
+// Phong.
 #pragma once
 
 #include <string>

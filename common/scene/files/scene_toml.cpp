@@ -10,7 +10,7 @@
 #include "common/scene/files/framing.h"
 #include "common/scene/files/image_file.h"
 #include "common/scene/files/light_file.h"
-#include "common/scene/files/material_conversion.h"
+#include "common/scene/files/material_toml.h"
 #include "common/scene/files/mesh_file.h"
 #include "common/scene/files/toml_reader.h"
 #include "common/scene/validation.h"
@@ -46,52 +46,6 @@ void read_mesh(const TomlTable& table, Scene& scene) {
   if (!std::filesystem::is_regular_file(file))
     fail("{}: no such mesh file: {}", table.where("file"), file.string());
   append_mesh_file(scene, file, options);
-}
-
-std::vector<Material*> find_materials(Scene& scene, const TomlTable& table) {
-  table.require("name");
-  const std::string name = table.text("name", "");
-  std::vector<Material*> found;
-  std::vector<std::string> names;
-  for (Material& m : scene.materials) {
-    names.push_back(m.name);
-    if (m.name == name) found.push_back(&m);
-  }
-  if (found.empty())
-    fail("{}: no material '{}'; the scene's materials: {}", table.where("name"), name,
-         fmt::join(names, ", "));
-  return found;
-}
-
-void read_material(const TomlTable& table, Scene& scene) {
-  const NumberRange albedo{0.0, 1.0};
-  int texture = -1;
-  if (table.has("diffuse_texture") && !table.text("diffuse_texture", "").empty()) {
-    const std::filesystem::path file = table.file("diffuse_texture");
-    if (!std::filesystem::is_regular_file(file))
-      fail("{}: no such image file: {}", table.where("diffuse_texture"), file.string());
-    scene.textures.push_back(load_texture(file));
-    texture = static_cast<int>(scene.textures.size() - 1);
-  }
-  if (table.has("exponent") && table.has("roughness"))
-    fail("{}: give either exponent or roughness, not both", table.where("roughness"));
-  for (Material* m : find_materials(scene, table)) {
-    m->diffuse = table.colour("diffuse", m->diffuse, albedo);
-    m->glossy = table.colour("glossy", m->glossy, albedo);
-    m->emission = table.colour("emission", m->emission, {0.0});
-    m->exponent = static_cast<float>(table.number("exponent", double(m->exponent), {0.0, 1e5}));
-    if (table.has("roughness"))
-      m->exponent =
-          phong_exponent_from_roughness(static_cast<float>(table.number("roughness", 0.0, {0.0, 1.0})));
-    if (table.has("diffuse_texture")) m->diffuse_texture = texture;
-    const glm::vec3 sum = m->diffuse + m->glossy;
-    if (std::max({sum.x, sum.y, sum.z}) > 1.0f)
-      fail(
-          "{}: diffuse + glossy of material '{}' is ({}, {}, {}); valid: <= 1, or the surface would create "
-          "light",
-          table.where(), m->name, sum.x, sum.y, sum.z);
-  }
-  table.refuse_unknown_keys();
 }
 
 void read_camera(const TomlTable& table, Camera& camera) {
