@@ -35,7 +35,8 @@ struct BatchRenderer::Tile {
   EyeTile eye[4];  // by sub-pixel: visible points of the 16 pixels
   int paths = 1;
   uint64_t scramble = 0, pixel_scramble[16];
-  glm::dvec3 sum[16] = {};
+  std::vector<glm::dvec3> sum;     // of each class, pixel by pixel
+  std::vector<glm::vec3> values;  // scratch: one sample of the same
   double squares = 0.0;  // of the mean channel, over all pixels
 };
 
@@ -48,14 +49,16 @@ BatchRenderer::BatchRenderer(const PathSampler& sampler, const RayTracer& tracer
       settings_(settings),
       samples_(samples_per_batch),
       tiles_x_((buffer.view.width + side - 1) / side),
-      tiles_y_((buffer.view.height + side - 1) / side),
-      paths_(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_), 1),
-      pixels_(buffer.indirect.size()) {}
+      tiles_y_((buffer.view.height + side - 1) / side) {
+  state_.paths.assign(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_), 1);
+  state_.pixels.resize(buffer.indirect.size());
+  if (sampler.classes().told_apart()) state_.layers.resize(buffer.indirect.size() * sampler.classes().count());
+}
 
 int BatchRenderer::tasks() const { return tiles_y_; }
 
 int& BatchRenderer::paths_of(int x0, int y0) {
-  return paths_[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) +
+  return state_.paths[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) +
                 static_cast<size_t>(x0 / side)];
 }
 
@@ -65,6 +68,8 @@ BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence) 
     return static_cast<uint64_t>(y) * static_cast<uint64_t>(view.width) + static_cast<uint64_t>(x);
   };
   Tile tile;
+  tile.sum.assign(16 * sampler_.classes().count(), glm::dvec3(0.0));
+  tile.values.resize(tile.sum.size());
   tile.scramble = random_bits(settings_.seed, tile_stream, number(x0, y0), sequence);
   for (int i = 0; i < 16; ++i) {
     const int x = x0 + i % side, y = y0 + i / side;
@@ -83,7 +88,7 @@ BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence) 
 }
 
 void BatchRenderer::plan(int samples) {
-  std::vector<double> deviation(paths_.size());
+  std::vector<double> deviation(state_.paths.size());
   std::atomic<int64_t> rays{0};
   for_each_row(tiles_y_, [&](int row) {
     Counts counts;
@@ -91,25 +96,33 @@ void BatchRenderer::plan(int samples) {
       Tile tile = make_tile(column * side, row * side, planning);
       for (int s = 0; s < samples; ++s) sample_tile(tile, static_cast<uint32_t>(s), counts);
       double variance = tile.squares / samples;
-      for (const glm::dvec3& sum : tile.sum)
+      const size_t classes = sampler_.classes().count();
+      for (size_t pixel = 0; pixel < 16; ++pixel) {
+        glm::dvec3 sum(0.0);
+        for (size_t c = 0; c < classes; ++c) sum += tile.sum[pixel * classes + c];
         variance -= std::pow((sum.x + sum.y + sum.z) / (3.0 * samples), 2);
+      }
       deviation[static_cast<size_t>(row * tiles_x_ + column)] = std::sqrt(std::max(0.0, variance));
     }
     rays += counts.rays;
   });
-  rays_ += rays;
+  state_.rays += rays;
   double mean = 0.0;
   for (double d : deviation) mean += d / static_cast<double>(deviation.size());
   if (!(mean > 0.0)) return;
-  for (size_t i = 0; i < paths_.size(); ++i)
-    paths_[i] = std::clamp(static_cast<int>(std::lround(deviation[i] / mean)), 1, most_paths);
+  for (size_t i = 0; i < state_.paths.size(); ++i)
+    state_.paths[i] = std::clamp(static_cast<int>(std::lround(deviation[i] / mean)), 1, most_paths);
 }
 
-void BatchRenderer::render(int batch, Progress& progress) {
+void BatchRenderer::render(Progress& progress) {
+  rays_ = non_finite_ = 0;
   for_each_row(tiles_y_, [&](int row) {
-    render_row(row, batch);
+    render_row(row, state_.batches);
     progress.advance();
   });
+  ++state_.batches;
+  state_.rays += rays_;
+  state_.non_finite += non_finite_;
 }
 
 void BatchRenderer::render_row(int row, int batch) {
@@ -133,7 +146,14 @@ void BatchRenderer::render_tile(int x0, int y0, int batch, Counts& counts) {
     if (x >= buffer_.view.width || y >= buffer_.view.height) continue;
     const size_t pixel =
         static_cast<size_t>(y) * static_cast<size_t>(buffer_.view.width) + static_cast<size_t>(x);
-    pixels_[pixel].add(tile.sum[i] / static_cast<double>(samples_), batch + 1);
+    const size_t classes = sampler_.classes().count();
+    glm::dvec3 total(0.0);
+    for (size_t c = 0; c < classes; ++c) {
+      const glm::dvec3 mean = tile.sum[static_cast<size_t>(i) * classes + c] / static_cast<double>(samples_);
+      if (!state_.layers.empty()) state_.layers[pixel * classes + c].add(mean, batch + 1);
+      if (sampler_.classes().selected(c)) total += mean;
+    }
+    state_.pixels[pixel].add(total, batch + 1);
   }
 }
 
@@ -144,7 +164,8 @@ void BatchRenderer::sample_tile(Tile& tile, uint32_t index, Counts& counts) cons
   if (eye.valid == 0) return;
   constexpr int connections = PathSampler::connections_at_eye;
   const LightConnector& connector = sampler_.connector();
-  glm::vec3 value[16] = {};
+  std::fill(tile.values.begin(), tile.values.end(), glm::vec3(0.0f));
+  const size_t classes = sampler_.classes().count();
   LightVertex light;
   if (sampler_.uses_light_vertices()) {
     const uint32_t first = index * static_cast<uint32_t>(connections);
@@ -152,24 +173,32 @@ void BatchRenderer::sample_tile(Tile& tile, uint32_t index, Counts& counts) cons
     for (int c = 0; sampler_.connects_at_eye() && c < connections; ++c) {
       const LightVertex y =
           c == 0 ? light : connector.trace({tile.scramble, first + static_cast<uint32_t>(c)}, counts.rays);
-      if (y.surface.valid) connector.connect(eye, y, connections, value, counts.rays);
+      if (y.surface.valid) connector.connect(eye, y, connections, sampler_.classes(), tile.values.data(), counts.rays);
     }
   }
   const uint32_t paths = static_cast<uint32_t>(tile.paths);
   for (int i = 0; i < 16; ++i) {
     if (!((eye.valid >> i) & 1u)) continue;
-    glm::vec3 sampled(0.0f);
+    // Connections count once for each set of paths, paths by their number.
+    glm::vec3* values = tile.values.data() + static_cast<size_t>(i) * classes;
+    for (size_t c = 0; c < classes; ++c) values[c] *= static_cast<float>(paths);
     for (uint32_t p = index * paths; p < (index + 1) * paths; ++p)
-      sampled += sampler_.sample(eye.vertex[i], light, {tile.pixel_scramble[i], p}, counts.rays);
-    value[i] += sampled / static_cast<float>(paths);
-    if (std::isfinite(value[i].x + value[i].y + value[i].z)) {
-      const glm::dvec3 v(value[i]);
-      tile.sum[i] += v;
-      tile.squares += std::pow((v.x + v.y + v.z) / 3.0, 2);
-    } else {
-      ++counts.non_finite;
-    }
+      sampler_.sample(eye.vertex[i], light, {tile.pixel_scramble[i], p}, values, counts.rays);
+    for (size_t c = 0; c < classes; ++c) values[c] /= static_cast<float>(paths);
+    if (!add_sample(tile, i, values)) ++counts.non_finite;
   }
+}
+
+// False, and nothing is added, if a value is not finite.
+bool BatchRenderer::add_sample(Tile& tile, int pixel, const glm::vec3* values) const {
+  const size_t classes = sampler_.classes().count();
+  glm::dvec3 total(0.0);
+  for (size_t c = 0; c < classes; ++c) total += glm::dvec3(values[c]);
+  if (!std::isfinite(total.x + total.y + total.z)) return false;
+  for (size_t c = 0; c < classes; ++c)
+    tile.sum[static_cast<size_t>(pixel) * classes + c] += glm::dvec3(values[c]);
+  tile.squares += std::pow((total.x + total.y + total.z) / 3.0, 2);
+  return true;
 }
 
 }  // namespace relight

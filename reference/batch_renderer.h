@@ -10,19 +10,10 @@
 #include <vector>
 
 #include "reference/path_sampler.h"
+#include "reference/path_tracer_state.h"
 #include "reference/path_tracer.h"
 
 namespace relight {
-
-// Mean and sum of squared deviations of a pixel's batch means (Welford's update).
-struct PixelStatistics {
-  glm::dvec3 mean{0.0}, squares{0.0};
-  void add(const glm::dvec3& batch_mean, int number_of_batches) {
-    const glm::dvec3 before = batch_mean - mean;
-    mean += before / static_cast<double>(number_of_batches);
-    squares += before * (batch_mean - mean);
-  }
-};
 
 class BatchRenderer {
  public:
@@ -36,12 +27,13 @@ class BatchRenderer {
 
   // Tasks a batch; progress advances by one a task.
   int tasks() const;
-  // Batches must be rendered in order 0, 1, ...
-  void render(int batch, Progress& progress);
+  // The next batch.
+  void render(Progress& progress);
 
-  int64_t rays() const { return rays_; }
-  int64_t non_finite() const { return non_finite_; }
-  const std::vector<PixelStatistics>& pixels() const { return pixels_; }
+  // What has been rendered so far; may be replaced by an earlier state of the same settings before the next
+  // batch.
+  const PathTracerState& state() const { return state_; }
+  void resume(PathTracerState state) { state_ = std::move(state); }
 
  private:
   struct Tile;
@@ -53,6 +45,7 @@ class BatchRenderer {
   int& paths_of(int x0, int y0);
   void render_tile(int x0, int y0, int batch, Counts& counts);
   void sample_tile(Tile& tile, uint32_t index, Counts& counts) const;
+  bool add_sample(Tile& tile, int pixel, const glm::vec3* values) const;
 
   const PathSampler& sampler_;
   const RayTracer& tracer_;
@@ -60,9 +53,8 @@ class BatchRenderer {
   const PathTracerSettings& settings_;
   int samples_;
   int tiles_x_, tiles_y_;
-  std::vector<int> paths_;  // a tile: paths from each visible point for each set of light vertices
-  std::vector<PixelStatistics> pixels_;
-  std::atomic<int64_t> rays_{0}, non_finite_{0};
+  PathTracerState state_;
+  std::atomic<int64_t> rays_{0}, non_finite_{0};  // of the batch being rendered
 };
 
 }  // namespace relight

@@ -6,16 +6,21 @@
 #include "common/sampling/deep_frame_buffer.h"
 #include "common/tracing/ray_tracer.h"
 #include "reference/light_sampler.h"
+#include "reference/path_classes.h"
 
 namespace relight {
 
 struct DirectImage {
-  Image image;
+  // Delta lights by the lobe that reflects them; emission and environment that the camera sees.
+  Image local_diffuse, local_glossy, seen_area, seen_environment;
+  Image total() const;
+  // The classes of the four images, in the order above.
+  static std::vector<PathClass> classes();
   int64_t rays = 0;
   int64_t non_finite = 0;  // sub-samples replaced by zero
 };
 
-// Radiance from point lights by traced shadow rays at the 2x2 sub-samples (full BRDF), plus emission and
+// Radiance from delta lights by traced shadow rays at the 2x2 sub-samples (full BRDF), plus emission and
 // environment seen by the camera where `paths` counts them; box-filtered. Parallel over rows, deterministic.
 DirectImage trace_direct(const RayTracer& tracer, const DeepFrameBuffer& buffer, const LightSampler& lights,
                          const LightPaths& paths);

@@ -30,45 +30,48 @@ LightVertex LightConnector::trace(const PathRandom& random, int64_t& rays) const
   return vertex;
 }
 
-glm::vec3 LightConnector::unshadowed(const EyeVertex& x, const LightVertex& y, float count) const {
+SplitRadiance LightConnector::unshadowed(const EyeVertex& x, const Throughput& throughput,
+                                         const LightVertex& y, float count) const {
   const Segment segment(x.surface->position, y.surface.position);
   const glm::vec3& w = segment.direction;
   const float cosine_y = -glm::dot(y.surface.geometric_normal, w);
-  if (!(cosine_y > 0.0f)) return glm::vec3(0.0f);
-  const glm::vec3 reflected = x.reflect(w);
-  if (black(reflected)) return reflected;
-  const glm::vec3 value =
-      reflected * shader::brdf_eval(y.brdf, y.surface.shading_normal, -w, y.to_light) * y.irradiance;
+  if (!(cosine_y > 0.0f)) return {};
+  const Reflected reflected = x.reflect(w);
+  if (black(reflected.sum())) return {};
   const float brdf =
       brdf_pdf(x.brdf, x.surface->shading_normal, x.wo, w, false) * lights_.next_event_probability(y.light);
-  return value * (1.0f / (x.paths * brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y)));
+  const float weight =
+      1.0f / (x.paths * brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y));
+  Throughput at_y = throughput;
+  at_y.advance(reflected);
+  return at_y.reflect(split_brdf(y.brdf, y.surface.shading_normal, -w, y.to_light) * (y.irradiance * weight));
 }
 
-glm::vec3 LightConnector::connect(const EyeVertex& x, const LightVertex& y, float count,
-                                  int64_t& rays) const {
-  const glm::vec3 value = unshadowed(x, y, count);
-  if (black(value)) return value;
+SplitRadiance LightConnector::connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
+                                      float count, int64_t& rays) const {
+  const SplitRadiance value = unshadowed(x, throughput, y, count);
+  if (black(value.sum())) return value;
   ++rays;
   const bool visible = tracer_.visible(x.surface->position, x.surface->geometric_normal, y.surface.position,
                                        y.surface.geometric_normal);
-  return visible ? value : glm::vec3(0.0f);
+  return visible ? value : SplitRadiance{};
 }
 
-void LightConnector::connect(const EyeTile& tile, const LightVertex& y, float count, glm::vec3* sums,
-                             int64_t& rays) const {
-  glm::vec3 values[16];
+void LightConnector::connect(const EyeTile& tile, const LightVertex& y, float count,
+                             const PathClasses& classes, glm::vec3* sums, int64_t& rays) const {
+  SplitRadiance values[16];
   uint32_t active = 0;
   for (uint32_t i = 0; i < 16; ++i) {
     if (!((tile.valid >> i) & 1u)) continue;
-    values[i] = unshadowed(tile.vertex[i], y, count);
-    if (!black(values[i])) active |= 1u << i;
+    values[i] = unshadowed(tile.vertex[i], Throughput(), y, count);
+    if (!black(values[i].sum())) active |= 1u << i;
   }
   if (active == 0) return;
   rays += __builtin_popcount(active);
   const glm::vec3 end = tracer_.offset_point(y.surface.position, y.surface.geometric_normal);
   const uint32_t free = tracer_.visible16(tile.position, end, active);
   for (uint32_t i = 0; i < 16; ++i)
-    if ((free >> i) & 1u) sums[i] += values[i];
+    if ((free >> i) & 1u) classes.add(1, LightEnd::local, values[i], sums + i * classes.count());
 }
 
 }  // namespace relight

@@ -31,14 +31,17 @@ class LightConnector {
   // The first surface hit by a ray from a light; invalid if there is none.
   LightVertex trace(const PathRandom& random, int64_t& rays) const;
 
-  // Light reaching the eye by x - y - light, divided by the sum of densities m p_b + count p_l, where `count`
-  // light vertices are connected to x.
-  glm::vec3 connect(const EyeVertex& x, const LightVertex& y, float count, int64_t& rays) const;
-  // Adds the same for each vertex of a tile to sums[0..15].
-  void connect(const EyeTile& tile, const LightVertex& y, float count, glm::vec3* sums, int64_t& rays) const;
+  // Light reaching the eye by x - y - light, where `throughput` reaches x, divided by the sum of densities
+  // m p_b + count p_l, where `count` light vertices are connected to x.
+  SplitRadiance connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y, float count,
+                        int64_t& rays) const;
+  // The same for the vertices of a tile, which the eye sees; adds to one[i * classes.count()].
+  void connect(const EyeTile& tile, const LightVertex& y, float count, const PathClasses& classes,
+               glm::vec3* sums, int64_t& rays) const;
 
  private:
-  glm::vec3 unshadowed(const EyeVertex& x, const LightVertex& y, float count) const;
+  SplitRadiance unshadowed(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
+                           float count) const;
   const RayTracer& tracer_;
   const LightSampler& lights_;
   LightPaths paths_;

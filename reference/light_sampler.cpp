@@ -22,25 +22,32 @@ size_t find(const Entries& entries, float u, Cumulative cumulative) {
 
 }  // namespace
 
-LightSampler::LightSampler(const LightingState& lighting) {
+LightSampler::LightSampler(const LightingState& lighting, float scene_diagonal)
+    : scene_diagonal_(scene_diagonal) {
   double power = 0.0, shadowed_power = 0.0;
   for (const Light& light : lighting.lights) {
+    if (!is_delta(light.type)) continue;
     Entry entry;
     entry.params = light.params();
     entry.casts_shadows = light.casts_shadows;
     if (light.type == LightType::spot)
       entry.one_minus_cosine = 1.0 - static_cast<double>(entry.params.direction_outer.w);
     // W, up to a factor: intensity x solid angle (a spot's falloff between the cones doesn't matter here).
-    const double weight = entry.one_minus_cosine *
-                          static_cast<double>(light.intensity.x + light.intensity.y + light.intensity.z);
+    // A directional light's power: what passes through a square of the scene's size.
+    const bool directional = light.type == LightType::directional;
+    const double extent = directional ? std::pow(static_cast<double>(scene_diagonal), 2) / two_pi
+                                      : entry.one_minus_cosine;
+    const double weight =
+        extent * static_cast<double>(light.intensity.x + light.intensity.y + light.intensity.z);
     if (!(weight > 0.0)) continue;
     entry.cumulative = power += weight;
-    entry.emission_cumulative = shadowed_power += light.casts_shadows ? weight : 0.0;
+    entry.emission_cumulative = shadowed_power += light.casts_shadows && !directional ? weight : 0.0;
+    entry.emits = light.casts_shadows && !directional;
     entry.probability = static_cast<float>(weight);
     lights_.push_back(entry);
   }
   for (Entry& entry : lights_) {
-    if (entry.casts_shadows)
+    if (entry.emits)
       entry.emission_pdf = static_cast<float>(static_cast<double>(entry.probability) / shadowed_power /
                                               (two_pi * entry.one_minus_cosine));
     entry.probability = static_cast<float>(static_cast<double>(entry.probability) / power);

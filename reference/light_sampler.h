@@ -1,4 +1,4 @@
-// The point lights of a lighting state as a path tracer samples them: which light, and which direction from
+// The delta lights (omni, spot, directional) of a lighting state as a path tracer samples them: which light, and which direction from
 // it.
 #pragma once
 
@@ -17,11 +17,17 @@ struct LightRay {
 
 class LightSampler {
  public:
-  explicit LightSampler(const LightingState& lighting);
+  // scene_diagonal: makes directional lights comparable in power, and is how far away they are put.
+  explicit LightSampler(const LightingState& lighting, float scene_diagonal = 1.0f);
 
   size_t size() const { return lights_.size(); }
   const shader::LightParams& params(size_t light) const { return lights_[light].params; }
-  glm::vec3 position(size_t light) const { return glm::vec3(lights_[light].params.position_type); }
+  // Where a shadow ray from `from` to the light ends: at the light, or far outside the scene.
+  glm::vec3 shadow_ray_end(size_t light, const glm::vec3& from) const {
+    const shader::LightParams& p = lights_[light].params;
+    return p.position_type.w > 1.5f ? from - glm::vec3(p.direction_outer) * (2.0f * scene_diagonal_)
+                                    : glm::vec3(p.position_type);
+  }
   bool casts_shadows(size_t light) const { return lights_[light].casts_shadows; }
 
   // Next-event estimation goes to every light if there are few, else to one chosen by power with u in [0,1).
@@ -31,7 +37,8 @@ class LightSampler {
   float next_event_probability(size_t light) const { return all() ? 1.0f : lights_[light].probability; }
 
   // Emission: an omni light uniformly over the sphere, a spot uniformly over its outer cone. Lights without
-  // shadows are left out, because light rays stop at the first surface and theirs don't.
+  // shadows are left out, because light rays stop at the first surface and theirs don't; directional lights,
+  // because they have no place to start from.
   bool emits() const { return !lights_.empty() && lights_.back().emission_cumulative > 0.0; }
   LightRay emit(float u_light, const glm::vec2& u) const;
   // The directional_pdf with which emit() leaves `light` in a direction where its intensity isn't zero.
@@ -42,6 +49,7 @@ class LightSampler {
   struct Entry {
     shader::LightParams params;
     bool casts_shadows = true;
+    bool emits = false;
     double one_minus_cosine = 2.0;  // of the cone of directions; 2 for the sphere
     float probability = 0.0f;       // of choose()
     double cumulative = 0.0;        // upper end of its interval in choose()
@@ -49,6 +57,7 @@ class LightSampler {
     double emission_cumulative = 0.0;
   };
   std::vector<Entry> lights_;
+  float scene_diagonal_;
 };
 
 }  // namespace relight

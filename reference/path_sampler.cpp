@@ -11,37 +11,57 @@ namespace {
 // Bounces before Russian roulette: short paths carry most of the light and are never cut.
 constexpr int bounces_before_roulette = 4;
 
-// Dimensions (pairs) of the random numbers: three a vertex of the eye path.
-enum VertexDimension : uint64_t { direction = 0, lobe_and_light = 1, roulette = 2, per_vertex = 3 };
+// Dimensions (pairs) of the random numbers: six a vertex of the eye path.
+enum VertexDimension : uint64_t {
+  direction = 0,
+  lobe_and_light = 1,
+  roulette_and_area = 2,
+  area_point = 3,
+  environment_direction = 4,
+  per_vertex = 6
+};
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 
-PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, const LightPaths& paths,
-                         Estimator estimator)
+// The state of one eye path.
+struct PathSampler::Walk {
+  EyeVertex x;
+  Throughput throughput;  // reaches x
+  int vertex = 1;         // x is x_vertex: light that arrives there has bounced vertex - 1 times
+  glm::vec3* sums;
+  int64_t& rays;
+};
+
+PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, const AreaLights& area,
+                         const EnvironmentSampler& environment, const LightPaths& paths,
+                         const PathClasses& classes, Estimator estimator)
     : tracer_(tracer),
       lights_(lights),
+      area_(area),
+      environment_(environment),
       paths_(paths),
+      classes_(classes),
       connector_(tracer, lights, paths),
       use_light_vertex_(estimator == Estimator::light_vertex && paths.max_bounces >= 1 && lights.emits()),
-      sampled_sources_(paths.emission || (paths.environment && !tracer.scene().environment.black())) {}
+      environment_counts_(paths.environment && !tracer.scene().environment.black()) {}
 
 // Strategy "brdf": light reflected by y (found from `distance` away with density `density`) from one light,
 // with the weight of the balance heuristic against `connections` light vertices for each such sample.
-glm::vec3 PathSampler::from_light(const EyeVertex& y, size_t light, float distance, float density,
+Reflected PathSampler::from_light(const EyeVertex& y, size_t light, float distance, float density,
                                   float connections, int64_t& rays) const {
   const SurfaceSample& s = *y.surface;
-  glm::vec3 value =
+  const glm::vec3 irradiance =
       shader::light_irradiance(lights_.params(light), s.position, s.shading_normal, s.geometric_normal);
-  if (black(value)) return value;
-  const Segment to_light(s.position, lights_.position(light));
-  value *= shader::brdf_eval(y.brdf, s.shading_normal, y.wo, to_light.direction);
-  if (black(value)) return value;
+  if (black(irradiance)) return {};
+  const glm::vec3 end = lights_.shadow_ray_end(light, s.position);
+  const Segment to_light(s.position, end);
+  const Reflected value = split_brdf(y.brdf, s.shading_normal, y.wo, to_light.direction) * irradiance;
+  if (black(value.sum())) return {};
   if (lights_.casts_shadows(light)) {
     ++rays;
-    if (!tracer_.visible_from_point(s.position, s.geometric_normal, lights_.position(light)))
-      return glm::vec3(0.0f);
+    if (!tracer_.visible_from_point(s.position, s.geometric_normal, end)) return {};
   }
   if (!use_light_vertex_ || !(lights_.emission_pdf(light) > 0.0f)) return value;
   const float area_pdf =
@@ -49,64 +69,143 @@ glm::vec3 PathSampler::from_light(const EyeVertex& y, size_t light, float distan
   const float other =
       directional_pdf(area_pdf, distance * distance, std::max(0.0f, glm::dot(s.geometric_normal, y.wo)));
   // As a quotient of 1: for a surface seen edge on, `other` may be infinite and the weight is 0.
-  return value * (1.0f / (1.0f + connections * other / density));
+  return value * glm::vec3(1.0f / (1.0f + connections * other / density));
 }
 
-glm::vec3 PathSampler::next_event(const EyeVertex& y, float distance, float density, float connections,
+Reflected PathSampler::next_event(const EyeVertex& y, float distance, float density, float connections,
                                   float u, int64_t& rays) const {
   if (!lights_.all()) {
     const size_t light = lights_.choose(u);
     const float probability = lights_.next_event_probability(light);
-    return from_light(y, light, distance, density * probability, connections, rays) / probability;
+    return from_light(y, light, distance, density * probability, connections, rays) *
+           glm::vec3(1.0f / probability);
   }
-  glm::vec3 sum(0.0f);
-  for (size_t light = 0; light < lights_.size(); ++light)
-    sum += from_light(y, light, distance, density, connections, rays);
+  Reflected sum;
+  for (size_t light = 0; light < lights_.size(); ++light) {
+    const Reflected r = from_light(y, light, distance, density, connections, rays);
+    sum.diffuse += r.diffuse, sum.glossy += r.glossy;
+  }
   return sum;
 }
 
-glm::vec3 PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random,
-                              int64_t& rays) const {
-  const int last = paths_.max_bounces + (sampled_sources_ ? 1 : 0);
-  glm::vec3 sum(0.0f), throughput(1.0f);
+// A point on an emitter; the balance heuristic against the BRDF's ray makes it f cos L / (p_light + p_brdf).
+void PathSampler::next_event_to_area(Walk& walk, float u_choice, const glm::vec2& u) const {
+  const AreaPoint point = area_.sample(u_choice, u);
+  if (!(point.area_pdf > 0.0f)) return;
+  const SurfaceSample& s = *walk.x.surface;
+  const Segment segment(s.position, point.position);
+  const float facing = -glm::dot(point.normal, segment.direction);
+  const float cosine = point.on_surface ? std::abs(facing) : facing;
+  if (!(cosine > 0.0f)) return;
+  const Reflected reflected = walk.x.reflect(segment.direction);
+  if (black(reflected.sum())) return;
+  const float light = directional_pdf(point.area_pdf, segment.squared, cosine);
+  const float brdf = brdf_pdf(walk.x.brdf, s.shading_normal, walk.x.wo, segment.direction, false);
+  ++walk.rays;
+  const bool visible =
+      point.on_surface ? tracer_.visible(s.position, s.geometric_normal, point.position, point.normal)
+                       : tracer_.visible_from_point(s.position, s.geometric_normal, point.position);
+  if (visible)
+    classes_.add(walk.vertex - 1, LightEnd::area,
+                 walk.throughput.reflect(reflected * (point.radiance / (light + brdf))), walk.sums);
+}
+
+void PathSampler::next_event_to_environment(Walk& walk, const glm::vec2& u) const {
+  const EnvironmentSample sample = environment_.sample(u);
+  if (!(sample.pdf > 0.0f)) return;
+  const Reflected reflected = walk.x.reflect(sample.direction);
+  if (black(reflected.sum())) return;
+  const SurfaceSample& s = *walk.x.surface;
+  const float brdf = brdf_pdf(walk.x.brdf, s.shading_normal, walk.x.wo, sample.direction, false);
+  const glm::vec3 radiance = tracer_.scene().environment.lookup(sample.direction);
+  const glm::vec3 far = s.position + sample.direction * (2.0f * tracer_.scene().bounds.diagonal());
+  ++walk.rays;
+  if (tracer_.visible_from_point(s.position, s.geometric_normal, far))
+    classes_.add(walk.vertex - 1, LightEnd::environment,
+                 walk.throughput.reflect(reflected * (radiance / (sample.pdf + brdf))), walk.sums);
+}
+
+// Rectangles and discs that the BRDF's ray meets on its way; walk.throughput has passed x.
+void PathSampler::hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSample& bounce,
+                             float t_far) const {
+  area_.for_each_shape_hit(origin, bounce.wi, t_far, [&](const ShapeHit& hit) {
+    const float light = directional_pdf(hit.area_pdf, hit.distance * hit.distance, hit.cosine);
+    classes_.add(walk.vertex - 1, LightEnd::area,
+                 walk.throughput.emitted(hit.radiance * (1.0f / (1.0f + light / bounce.pdf))), walk.sums);
+  });
+}
+
+void PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random,
+                         glm::vec3* sums, int64_t& rays) const {
+  const bool extended = environment_counts_ || !area_.empty();
+  const int last = paths_.max_bounces + (extended ? 1 : 0);
   SurfaceSample current;
-  EyeVertex x = x1;
-  // Step k goes from vertex x_k to x_(k+1); point lights reach the eye from there with k bounces, emitters
+  Walk walk{x1, {}, 1, sums, rays};
+  // Step k goes from vertex x_k to x_(k+1); delta lights reach the eye from there with k bounces, emitters
   // with k - 1.
   for (int k = 1; k <= last; ++k) {
-    const bool counts = k >= paths_.min_bounces && k <= paths_.max_bounces;
-    const bool emitter_counts = k - 1 >= paths_.min_bounces;
-    if (k > 1 && counts && light.surface.valid) sum += throughput * connector_.connect(x, light, 1.0f, rays);
-
+    walk.vertex = k;
+    const EyeVertex& x = walk.x;
+    const bool counts = bounces_count(k), emitter_counts = bounces_count(k - 1);
     const uint64_t dimension = static_cast<uint64_t>(k) * per_vertex;
-    if (k > bounces_before_roulette) {
-      const float survival = std::min(1.0f, std::max({throughput.x, throughput.y, throughput.z}));
-      if (!(random.pair(dimension + roulette).x < survival)) break;
-      throughput /= survival;
+    if (k > 1 && counts && light.surface.valid)
+      classes_.add(k, LightEnd::local, connector_.connect(x, walk.throughput, light, 1.0f, rays), sums);
+    const bool roulette = k > bounces_before_roulette;
+    const glm::vec2 shared =
+        roulette || !area_.empty() ? random.pair(dimension + roulette_and_area) : glm::vec2(0.0f);
+    if (emitter_counts && !area_.empty())
+      next_event_to_area(walk, shared.y, random.pair(dimension + area_point));
+    if (emitter_counts && environment_counts_ && !environment_.empty())
+      next_event_to_environment(walk, random.pair(dimension + environment_direction));
+
+    if (roulette) {
+      const glm::vec3 t = walk.throughput.sum();
+      const float survival = std::min(1.0f, std::max({t.x, t.y, t.z}));
+      if (!(shared.x < survival)) break;
+      walk.throughput.scale(1.0f / survival);
     }
     const bool needs_choice = !black(x.brdf.glossy) || !lights_.all();
     const glm::vec2 choice = needs_choice ? random.pair(dimension + lobe_and_light) : glm::vec2(0.0f);
     const BrdfSample bounce = sample_brdf(x.brdf, x.surface->shading_normal, x.wo, choice.x,
                                           random.pair(dimension + direction), false);
     if (!(bounce.pdf > 0.0f)) break;
-    throughput *= x.reflect(bounce.wi) / bounce.pdf;
-    if (black(throughput)) break;
+    const Reflected reflected = x.reflect(bounce.wi);
+    if (black(reflected.sum())) break;
+    walk.throughput.advance(reflected * glm::vec3(1.0f / bounce.pdf));
+    if (black(walk.throughput.sum())) break;
     const glm::vec3 origin = tracer_.offset_point(x.surface->position, x.surface->geometric_normal);
-    if (!finite(origin) || !finite(bounce.wi)) return glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    if (!finite(origin) || !finite(bounce.wi)) {
+      sums[0] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+      return;
+    }
     ++rays;
     const Hit hit = tracer_.intersect(origin, bounce.wi);
+    if (emitter_counts && area_.has_shapes())
+      hit_shapes(walk, origin, bounce, hit.valid ? hit.t : std::numeric_limits<float>::infinity());
     if (!hit.valid) {
-      if (paths_.environment && emitter_counts)
-        sum += throughput * tracer_.scene().environment.lookup(bounce.wi);
+      if (environment_counts_ && emitter_counts) {
+        const float other = environment_.pdf(bounce.wi) / bounce.pdf;
+        classes_.add(k - 1, LightEnd::environment,
+                     walk.throughput.emitted(tracer_.scene().environment.lookup(bounce.wi) / (1.0f + other)),
+                     sums);
+      }
       break;
     }
     current = tracer_.surface(hit, bounce.wi);
-    x = {&current, allowed_brdf(current, paths_, false), -bounce.wi};
-    if (paths_.emission && emitter_counts) sum += throughput * current.emission;
+    const float triangle_pdf = area_.triangle_pdf(hit.triangle);
+    if (emitter_counts && triangle_pdf > 0.0f) {
+      const float cosine = std::abs(glm::dot(current.geometric_normal, bounce.wi));
+      const float other = directional_pdf(triangle_pdf, hit.t * hit.t, cosine) / bounce.pdf;
+      classes_.add(k - 1, LightEnd::area, walk.throughput.emitted(current.emission * (1.0f / (1.0f + other))),
+                   sums);
+    }
+    walk.x = {&current, allowed_brdf(current, paths_, false), -bounce.wi};
     const float connections = k == 1 ? static_cast<float>(connections_at_eye) / x1.paths : 1.0f;
-    if (counts) sum += throughput * next_event(x, hit.t, bounce.pdf, connections, choice.y, rays);
+    if (counts)
+      classes_.add(
+          k, LightEnd::local,
+          walk.throughput.reflect(next_event(walk.x, hit.t, bounce.pdf, connections, choice.y, rays)), sums);
   }
-  return sum;
 }
 
 }  // namespace relight

@@ -9,8 +9,13 @@
 //          p_l = emission pdf cos_l/r^2 d^2/cos_y).
 // The sum of F / (m p_b + n p_l) over all m + n samples is the estimate. Near corners p_b bounds it, in a
 // spot's lit patch p_l does.
+//
+// Light with an extent (emitting surfaces, rectangles, discs, environment maps) is found from each vertex both
+// by a point or direction drawn from the light and by the BRDF's ray, combined in the same way.
 #pragma once
 
+#include "reference/area_lights.h"
+#include "reference/environment_sampler.h"
 #include "reference/light_connection.h"
 #include "reference/path_tracer.h"
 
@@ -23,12 +28,14 @@ class PathSampler {
   // noise.
   static constexpr int connections_at_eye = 16;
 
-  PathSampler(const RayTracer& tracer, const LightSampler& lights, const LightPaths& paths,
+  PathSampler(const RayTracer& tracer, const LightSampler& lights, const AreaLights& area,
+              const EnvironmentSampler& environment, const LightPaths& paths, const PathClasses& classes,
               Estimator estimator);
 
   // True if the estimator connects visible points to light vertices.
   bool connects_at_eye() const { return use_light_vertex_ && paths_.min_bounces <= 1; }
   bool uses_light_vertices() const { return use_light_vertex_; }
+  const PathClasses& classes() const { return classes_; }
   const LightConnector& connector() const { return connector_; }
   EyeVertex eye_vertex(const SurfaceSample& x1, const glm::vec3& eye) const {
     return {&x1, allowed_brdf(x1, paths_, true), Segment(x1.position, eye).direction};
@@ -36,23 +43,33 @@ class PathSampler {
 
   // Radiance leaving x1 towards the eye along paths of the allowed numbers of bounces, one sample, without
   // what the caller gets from connections_at_eye connections to x1 itself. `light` (may be invalid) is
-  // connected to the vertices behind x1. May be non-finite if the scene's data are. Adds the number of rays
-  // traced to `rays`.
-  glm::vec3 sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random,
-                   int64_t& rays) const;
+  // connected to the vertices behind x1. Adds to sums[0, classes().count()), which may become non-finite if the
+  // scene's data are, and the number of rays traced to `rays`.
+  void sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random, glm::vec3* sums,
+              int64_t& rays) const;
 
  private:
-  glm::vec3 next_event(const EyeVertex& y, float distance, float density, float connections, float u,
+  struct Walk;
+  Reflected next_event(const EyeVertex& y, float distance, float density, float connections, float u,
                        int64_t& rays) const;
-  glm::vec3 from_light(const EyeVertex& y, size_t light, float distance, float density, float connections,
+  Reflected from_light(const EyeVertex& y, size_t light, float distance, float density, float connections,
                        int64_t& rays) const;
+  void next_event_to_area(Walk& walk, float u_choice, const glm::vec2& u) const;
+  void next_event_to_environment(Walk& walk, const glm::vec2& u) const;
+  void hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSample& bounce, float t_far) const;
+  bool bounces_count(int bounces) const {
+    return bounces >= paths_.min_bounces && bounces <= paths_.max_bounces;
+  }
 
   const RayTracer& tracer_;
   const LightSampler& lights_;
+  const AreaLights& area_;
+  const EnvironmentSampler& environment_;
   LightPaths paths_;
+  const PathClasses& classes_;
   LightConnector connector_;
   bool use_light_vertex_;
-  bool sampled_sources_;  // environment or emission, found by BRDF rays only
+  bool environment_counts_;
 };
 
 }  // namespace relight

@@ -5,7 +5,8 @@
 
 #include "common/run/error.h"
 #include "reference/batch_renderer.h"
-#include "reference/direct_image.h"
+#include "reference/path_pattern.h"
+#include "reference/path_tracer_images.h"
 
 namespace relight {
 
@@ -21,6 +22,10 @@ void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   if (settings.samples_per_pixel < settings.batches)
     fail("path tracer: samples_per_pixel = {}; it must be at least the number of batches ({})",
          settings.samples_per_pixel, settings.batches);
+  if (!settings.pattern.empty() && settings.class_bounces < 0)
+    fail("path tracer: a pattern of light paths needs class_bounces >= 0");
+  if (!(settings.target_error >= 0.0))
+    fail("path tracer: target_error = {}; it must be >= 0 (0: none)", settings.target_error);
   const LightPaths& paths = settings.paths;
   if (paths.min_bounces < 0 || paths.max_bounces < paths.min_bounces)
     fail("path tracer: bounces {}..{}; needed are 0 <= min <= max", paths.min_bounces, paths.max_bounces);
@@ -32,15 +37,108 @@ void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
          buffer.view.height);
 }
 
-void write_images(const std::vector<PixelStatistics>& pixels, const View& view, int batches,
-                  PathTracerResult& result) {
-  result.indirect = Image(view.width, view.height);
-  for (size_t i = 0; i < pixels.size(); ++i) result.indirect.pixels[i] = glm::vec3(pixels[i].mean);
-  if (batches < 2) return;
-  result.indirect_variance = Image(view.width, view.height);
-  const double n = static_cast<double>(batches);
-  for (size_t i = 0; i < pixels.size(); ++i)
-    result.indirect_variance.pixels[i] = glm::vec3(pixels[i].squares / (n * (n - 1.0)));
+bool any_glossy(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.is_glossy(); });
+}
+
+PathClasses path_classes(const Scene& scene, const PathTracerSettings& settings, const AreaLights& area) {
+  if (settings.class_bounces < 0) return {};
+  return PathClasses(settings.class_bounces, settings.paths, any_glossy(scene), !area.empty(),
+                     settings.paths.environment && !scene.environment.black());
+}
+
+// Restricts classes and direct light to the pattern.
+void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage& direct) {
+  if (pattern.empty()) return;
+  std::vector<PathClass> all = DirectImage::classes();
+  const size_t exact = all.size();
+  all.insert(all.end(), classes.classes().begin(), classes.classes().end());
+  std::vector<uint8_t> chosen(all.size(), 0);
+  const std::vector<size_t> selected = select_paths(pattern, all);
+  if (selected.empty()) fail("light paths: '{}' selects no path that this scene and these bounces have", pattern);
+  for (const size_t i : selected) chosen[i] = 1;
+  Image* images[] = {&direct.local_diffuse, &direct.local_glossy, &direct.seen_area, &direct.seen_environment};
+  for (size_t i = 0; i < exact; ++i)
+    if (!chosen[i]) *images[i] = Image(images[i]->width, images[i]->height);
+  classes.select({chosen.begin() + static_cast<std::ptrdiff_t>(exact), chosen.end()});
+}
+
+// Renders batches until one of the settings says stop.
+class Run {
+ public:
+  Run(const PathTracerSettings& settings, const Image& direct, BatchRenderer& renderer, double direct_seconds)
+      : settings_(settings), direct_(direct), renderer_(renderer) {
+    if (!settings.checkpoint.file.empty()) {
+      if (auto state = load_state(settings.checkpoint.file, settings.checkpoint.key)) {
+        renderer.resume(std::move(*state));
+        resumed_ = true;
+      }
+    }
+    before_ = resumed_ ? renderer.state().seconds : direct_seconds;
+  }
+
+  bool resumed() const { return resumed_; }
+  double seconds() const { return before_ + elapsed(); }
+  // The state with the time spent on it.
+  PathTracerState state() const {
+    PathTracerState s = renderer_.state();
+    s.seconds = seconds();
+    return s;
+  }
+
+  void render(int per_batch, Progress& progress) {
+    double longest = 0.0, saved = elapsed();
+    while (renderer_.state().batches < settings_.batches && !finished(longest)) {
+      const double start = elapsed();
+      renderer_.render(progress);
+      longest = std::max(longest, elapsed() - start);
+      if (settings_.on_batch)
+        settings_.on_batch({seconds(), renderer_.state().batches * per_batch, error()});
+      if (elapsed() - saved >= settings_.checkpoint.every_s) {
+        save();
+        saved = elapsed();
+      }
+    }
+    save();
+  }
+
+  double error() const {
+    return settings_.one_sequence ? 0.0 : relative_standard_error(renderer_.state(), direct_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool finished(double longest) const {
+    const int batches = renderer_.state().batches;
+    if (settings_.target_error > 0.0 && batches >= 4 && error() <= settings_.target_error) return true;
+    const bool too_late = settings_.time_limit_s > 0.0 && seconds() + longest > settings_.time_limit_s;
+    return batches >= (settings_.one_sequence ? 1 : 2) && too_late;
+  }
+  void save() const {
+    if (!settings_.checkpoint.file.empty())
+      save_state(settings_.checkpoint.file, settings_.checkpoint.key, state());
+  }
+
+  const PathTracerSettings& settings_;
+  const Image& direct_;
+  BatchRenderer& renderer_;
+  Clock::time_point start_ = Clock::now();
+  double before_ = 0.0;
+  bool resumed_ = false;
+};
+
+void report(const PathTracerResult& result, StageLog& log) {
+  log.count("rays", result.rays);
+  log.count("non_finite_samples", result.non_finite);
+  log.count("firefly_pixels", result.fireflies);
+  if (result.non_finite > 0)
+    log.warn(fmt::format("{} non-finite path samples were replaced by zero", result.non_finite));
+  if (result.fireflies > 0)
+    log.warn(fmt::format("{} pixels are dominated by one bright batch: their value and variance are not to be "
+                         "trusted; more samples help",
+                         result.fireflies));
 }
 
 }  // namespace
@@ -48,46 +146,46 @@ void write_images(const std::vector<PixelStatistics>& pixels, const View& view, 
 PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                             const LightingState& lighting, const PathTracerSettings& settings,
                             Progress& progress, StageLog& log) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const auto start = std::chrono::steady_clock::now();
   check(settings, buffer);
-  const LightSampler lights(lighting);
+  const Scene& scene = tracer.scene();
+  const LightSampler lights(lighting, scene.bounds.diagonal());
+  const AreaLights area(scene, lighting, settings.paths.emission);
+  const EnvironmentSampler environment(scene.environment);
+  PathClasses classes = path_classes(scene, settings, area);
   PathTracerResult result;
+  DirectImage direct;
   {
     StageTimer timer(log, "direct");
-    DirectImage direct = trace_direct(tracer, buffer, lights, settings.paths);
-    result.direct = std::move(direct.image);
-    result.rays = direct.rays, result.non_finite = direct.non_finite;
+    direct = trace_direct(tracer, buffer, lights, settings.paths);
+    apply_pattern(settings.pattern, classes, direct);
+    result.direct = direct.total();
   }
 
   StageTimer timer(log, "indirect");
   const int per_batch = (settings.samples_per_pixel + settings.batches - 1) / settings.batches;
-  const int least_batches = settings.one_sequence ? 1 : 2;
-  const PathSampler sampler(tracer, lights, settings.paths, settings.estimator);
+  const PathSampler sampler(tracer, lights, area, environment, settings.paths, classes, settings.estimator);
   BatchRenderer renderer(sampler, tracer, buffer, settings, per_batch);
-  progress.start("path tracing", static_cast<int64_t>(settings.batches) * renderer.tasks());
+  Run run(settings, result.direct, renderer,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  progress.start("path tracing", int64_t{settings.batches - renderer.state().batches} * renderer.tasks());
   const bool adaptive = settings.estimator == Estimator::light_vertex && !settings.one_sequence;
-  if (adaptive && settings.samples_per_pixel >= least_samples_for_planning) renderer.plan(planning_samples);
-  double longest_batch = 0.0;
-  for (int batch = 0; batch < settings.batches; ++batch) {
-    const double before = elapsed();
-    const bool too_late = settings.time_limit_s > 0.0 && before + longest_batch > settings.time_limit_s;
-    if (batch >= least_batches && too_late) break;
-    renderer.render(batch, progress);
-    longest_batch = std::max(longest_batch, elapsed() - before);
-    result.batches = batch + 1;
-  }
+  if (!run.resumed() && adaptive && settings.samples_per_pixel >= least_samples_for_planning)
+    renderer.plan(planning_samples);
+  run.render(per_batch, progress);
   progress.finish();
-  result.samples_per_pixel = result.batches * per_batch;
-  result.rays += renderer.rays();
-  result.non_finite += renderer.non_finite();
+
+  const PathTracerState& state = renderer.state();
+  result.batches = state.batches;
+  result.samples_per_pixel = state.batches * per_batch;
+  result.rays = state.rays + direct.rays;
+  result.non_finite = state.non_finite + direct.non_finite;
+  result.seconds = run.seconds();
+  result.relative_standard_error = run.error();
   // Batches of one sequence aren't independent: their spread says nothing about the error.
-  write_images(renderer.pixels(), buffer.view, settings.one_sequence ? 1 : result.batches, result);
-  log.count("rays", result.rays);
-  log.count("non_finite_samples", result.non_finite);
-  if (result.non_finite > 0)
-    log.warn(fmt::format("{} non-finite path samples were replaced by zero", result.non_finite));
+  write_indirect(state, !settings.one_sequence && state.batches >= 2, result);
+  if (classes.told_apart()) write_layers(state, classes, direct, result);
+  report(result, log);
   return result;
 }
 

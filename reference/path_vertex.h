@@ -5,6 +5,7 @@
 
 #include "common/run/light_paths.h"
 #include "common/sampling/surface_sample.h"
+#include "reference/path_classes.h"
 
 namespace relight {
 
@@ -27,6 +28,24 @@ inline shader::BrdfParams allowed_brdf(const SurfaceSample& surface, const Light
   return brdf;
 }
 
+// f cos of one vertex by lobe.
+struct Reflected {
+  glm::vec3 diffuse{0.0f}, glossy{0.0f};
+  glm::vec3 sum() const { return diffuse + glossy; }
+};
+
+inline Reflected operator*(const Reflected& r, const glm::vec3& factor) {
+  return {r.diffuse * factor, r.glossy * factor};
+}
+
+// BRDF by lobe [1/sr].
+inline Reflected split_brdf(const shader::BrdfParams& brdf, const glm::vec3& n, const glm::vec3& wo,
+                            const glm::vec3& wi) {
+  Reflected f{shader::brdf_diffuse(brdf), glm::vec3(0.0f)};
+  if (!black(brdf.glossy)) f.glossy = shader::brdf_glossy(brdf, n, wo, wi);
+  return f;
+}
+
 // A vertex reached from the eye.
 struct EyeVertex {
   const SurfaceSample* surface = nullptr;
@@ -35,11 +54,52 @@ struct EyeVertex {
   float paths = 1.0f;  // BRDF samples taken here for each set of light vertices: m of the balance heuristic
 
   // f cos for light from w; 0 from behind either normal.
-  glm::vec3 reflect(const glm::vec3& w) const {
+  Reflected reflect(const glm::vec3& w) const {
     const float cosine = glm::dot(surface->shading_normal, w);
-    if (!(cosine > 0.0f) || !(glm::dot(surface->geometric_normal, w) > 0.0f)) return glm::vec3(0.0f);
-    return shader::brdf_eval(brdf, surface->shading_normal, wo, w) * cosine;
+    if (!(cosine > 0.0f) || !(glm::dot(surface->geometric_normal, w) > 0.0f)) return {};
+    return split_brdf(brdf, surface->shading_normal, wo, w) * glm::vec3(cosine);
   }
+};
+
+// Throughput of an eye path by lobe, as far as the vertex it has reached. At the eye vertex itself nothing has
+// been split yet: `started` is false.
+class Throughput {
+ public:
+  // Radiance if the vertex reflects `r` of it towards the eye.
+  SplitRadiance reflect(const Reflected& r) const {
+    SplitRadiance out;
+    if (!started_) {
+      out.value[0][0] = r.diffuse * split_.value[0][0];
+      out.value[1][0] = r.glossy * split_.value[0][0];
+      return out;
+    }
+    for (int eye = 0; eye < 2; ++eye) {
+      out.value[eye][0] = r.diffuse * split_.value[eye][0];
+      out.value[eye][1] = r.glossy * split_.value[eye][0] + r.sum() * split_.value[eye][1];
+    }
+    return out;
+  }
+  // Goes on through the vertex.
+  void advance(const Reflected& r) {
+    split_ = reflect(r);
+    started_ = true;
+  }
+  void scale(float factor) {
+    for (auto& eye : split_.value)
+      for (glm::vec3& v : eye) v *= factor;
+  }
+  glm::vec3 sum() const { return split_.sum(); }
+  // Radiance from what the path has hit, which emits `radiance`.
+  SplitRadiance emitted(const glm::vec3& radiance) const {
+    SplitRadiance out = split_;
+    for (auto& eye : out.value)
+      for (glm::vec3& v : eye) v *= radiance;
+    return out;
+  }
+
+ private:
+  bool started_ = false;
+  SplitRadiance split_{{{glm::vec3(1.0f), glm::vec3(0.0f)}, {glm::vec3(0.0f), glm::vec3(0.0f)}}};
 };
 
 // A vertex reached from a point light.

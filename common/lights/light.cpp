@@ -28,6 +28,13 @@ void validate_spot(const Light& light, const std::string& who) {
         who, light.inner_degrees, light.outer_degrees);
 }
 
+void validate_rectangle(const Light& light, const std::string& who) {
+  const float area = 4.0f * glm::length(glm::cross(light.edge_u, light.edge_v));
+  if (!std::isfinite(area) || !(area > 0.0f))
+    fail("{}: edge_u is {} and edge_v {}; a rectangle needs an area", who, show(light.edge_u),
+         show(light.edge_v));
+}
+
 }  // namespace
 
 shader::LightParams Light::params() const {
@@ -35,10 +42,9 @@ shader::LightParams Light::params() const {
   const auto cosine = [](float degrees) {
     return static_cast<float>(std::cos(glm::radians(double(degrees))));
   };
-  const bool spot = type == LightType::spot;
-  const glm::vec3 axis = spot ? glm::normalize(direction) : glm::vec3(0.0f, -1.0f, 0.0f);
+  const glm::vec3 axis = type == LightType::omni ? glm::vec3(0.0f, -1.0f, 0.0f) : glm::normalize(direction);
   shader::LightParams p;
-  p.position_type = glm::vec4(position, spot ? 1.0f : 0.0f);
+  p.position_type = glm::vec4(position, static_cast<float>(type));
   p.direction_outer = glm::vec4(axis, cosine(outer_degrees));
   p.intensity_inner = glm::vec4(intensity, cosine(inner_degrees));
   return p;
@@ -52,8 +58,13 @@ void validate(const LightingState& lighting) {
                                 : fmt::format("lighting '{}': light '{}'", lighting.name, light.name);
     if (!finite(light.position)) fail("{}: position is {}; it must be finite", who, show(light.position));
     if (!finite(light.intensity) || glm::any(glm::lessThan(light.intensity, glm::vec3(0.0f))))
-      fail("{}: intensity is {}; valid: finite values >= 0 [W/sr]", who, show(light.intensity));
+      fail("{}: intensity is {}; valid: finite values >= 0", who, show(light.intensity));
     if (light.type == LightType::spot) validate_spot(light, who);
+    if (light.type > LightType::spot && (!finite(light.direction) || !(glm::length(light.direction) > 0.0f)))
+      fail("{}: direction is {}; it must be finite and have a length", who, show(light.direction));
+    if (light.type == LightType::rectangle) validate_rectangle(light, who);
+    if (light.type == LightType::disc && !(light.radius > 0.0f && std::isfinite(light.radius)))
+      fail("{}: radius is {}; a disc needs a finite radius > 0", who, light.radius);
   }
 }
 

@@ -16,20 +16,27 @@ using namespace glm;
 #include "common/lights/light_models.glsl"
 }  // namespace shader
 
-enum class LightType { omni = 0, spot = 1 };
+// rectangle and disc are seen by surfaces but not by the camera, shine from one side only and block nothing.
+enum class LightType { omni = 0, spot = 1, directional = 2, rectangle = 3, disc = 4 };
 
-// A point light. Intensities in W/sr, linear RGB.
+// True for lights that shine from one place or one direction: their shadows are sharp.
+inline bool is_delta(LightType type) { return type <= LightType::directional; }
+
+// Linear RGB. The unit of intensity depends on the type: W/sr (omni, spot), W/m^2 facing the light
+// (directional), or radiance in W/(m^2 sr) (rectangle, disc).
 struct Light {
   std::string name;
   LightType type = LightType::omni;
-  glm::vec3 position{0.0f};
-  glm::vec3 direction{0, -1, 0};  // spot axis, unit; unused for omni
+  glm::vec3 position{0.0f};       // centre of a rectangle or disc; unused for directional
+  glm::vec3 direction{0, -1, 0};  // unit: where a spot, directional, rectangle or disc shines; unused for omni
+  glm::vec3 edge_u{0.0f}, edge_v{0.0f};  // rectangle: from its centre to the middles of two sides
+  float radius = 0.0f;                   // disc
   glm::vec3 intensity{1.0f};      // on the axis for a spot
   float inner_degrees = 20.0f;    // spot: half-angle of full intensity
   float outer_degrees = 25.0f;    // spot: half-angle where the intensity reaches zero; > inner
   bool casts_shadows = true;
 
-  // The form the shading code (C++ and GLSL) reads.
+  // The form the shading code (C++ and GLSL) reads; delta lights only.
   shader::LightParams params() const;
 };
 

@@ -1,18 +1,19 @@
 // Light models, one source for C++ (GLM) and GLSL; see common/glsl_in_cpp.h for the subset.
-// Omni: constant intensity. Spot: cosine-smoothstep between the inner and outer cone.
+// Omni: constant intensity. Spot: cosine-smoothstep between the inner and outer cone. Directional: parallel light.
+// Lights with an area are sampled point by point (reference/area_lights.h) and have no form here.
 #ifndef RELIGHT_LIGHT_MODELS
 #define RELIGHT_LIGHT_MODELS
 
 struct LightParams {
-  vec4 position_type;     // xyz position [scene units]; w: 0 omni, 1 spot
+  vec4 position_type;     // xyz position [scene units]; w: 0 omni, 1 spot, 2 directional
   vec4 direction_outer;   // xyz unit axis; w: cosine of the outer half-angle
-  vec4 intensity_inner;   // xyz intensity [W/sr]; w: cosine of the inner half-angle
+  vec4 intensity_inner;   // xyz intensity [W/sr], directional: irradiance [W/m^2]; w: cosine of the inner half-angle
 };
 
 // Intensity [W/sr] leaving the light along the unit direction `away`.
 RL_FUNCTION vec3 light_intensity(LightParams light, vec3 away) {
   vec3 intensity = vec3(light.intensity_inner);
-  if (light.position_type.w > 0.5f) {
+  if (light.position_type.w > 0.5f && light.position_type.w < 1.5f) {
     float cosine = dot(vec3(light.direction_outer), away);
     float t = clamp((cosine - light.direction_outer.w) / (light.intensity_inner.w - light.direction_outer.w),
                     0.0f, 1.0f);
@@ -24,6 +25,12 @@ RL_FUNCTION vec3 light_intensity(LightParams light, vec3 away) {
 // Unshadowed irradiance [W/m^2] of a surface point with unit shading normal ns and geometric normal ng (both on
 // the lit side). Zero from behind either normal, and at the light's own position.
 RL_FUNCTION vec3 light_irradiance(LightParams light, vec3 position, vec3 ns, vec3 ng) {
+  if (light.position_type.w > 1.5f) {
+    vec3 towards = -vec3(light.direction_outer);
+    float c = dot(ns, towards);
+    if (!(c > 0.0f) || !(dot(ng, towards) > 0.0f)) return vec3(0.0f);
+    return vec3(light.intensity_inner) * c;
+  }
   vec3 to_light = vec3(light.position_type) - position;
   float r2 = dot(to_light, to_light);
   if (!(r2 > 0.0f)) return vec3(0.0f);

@@ -101,7 +101,8 @@ void describe_lighting(const Scene& scene, std::string& text) {
   for (const auto& [name, lighting] : scene.lightings) {
     fmt::format_to(out, "  {}\n", name);
     for (const Light& light : lighting.lights) {
-      fmt::format_to(out, "    {} at {}, intensity {}", light.type == LightType::omni ? "omni" : "spot",
+      constexpr const char* types[] = {"omni", "spot", "directional", "rectangle", "disc"};
+      fmt::format_to(out, "    {} at {}, intensity {}", types[static_cast<int>(light.type)],
                      show(light.position), show(light.intensity));
       if (light.type == LightType::spot)
         fmt::format_to(out, ", towards {}, {:.4g} to {:.4g} degrees", show(light.direction),

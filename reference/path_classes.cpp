@@ -1,0 +1,52 @@
+#include "reference/path_classes.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace relight {
+
+std::string PathClass::name() const {
+  constexpr const char* ends[] = {"local", "area", "environment"};
+  const char* end_name = ends[static_cast<int>(end)];
+  if (bounces < 0) return fmt::format("seen.{}", end_name);
+  const char* eye = glossy_at_eye ? "G" : "D";
+  const char* interior = bounces == 0 ? "" : glossy_interior ? ".some_G" : ".D";
+  return fmt::format("b{}{}.{}{}.{}", bounces, or_more ? "+" : "", eye, interior, end_name);
+}
+
+PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment) {
+  last_ = std::min(most_bounces + 1, paths.max_bounces);
+  place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
+  for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)
+    for (const LightEnd end : {LightEnd::local, LightEnd::area, LightEnd::environment}) {
+      if (end == LightEnd::area && !area) continue;
+      if (end == LightEnd::environment && !environment) continue;
+      if (end == LightEnd::local && bounces == 0) continue;  // exact, in the direct image
+      for (int eye = 0; eye <= (glossy && paths.glossy_at_eye ? 1 : 0); ++eye)
+        for (int interior = 0; interior <= (glossy && paths.glossy_interior && bounces > 0 ? 1 : 0);
+             ++interior) {
+          place_[slot(bounces, end, eye, interior)] = static_cast<int>(classes_.size());
+          classes_.push_back({bounces, bounces > most_bounces, eye == 1, interior == 1, end});
+        }
+    }
+}
+
+void PathClasses::add(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const {
+  if (!told_apart()) {
+    *sums += radiance.sum();
+    return;
+  }
+  for (int eye = 0; eye < 2; ++eye)
+    for (int interior = 0; interior < 2; ++interior) {
+      const glm::vec3& value = radiance.value[eye][interior];
+      if (value == glm::vec3(0.0f)) continue;
+      const int place = place_[slot(std::min(bounces, last_), end, eye, interior)];
+      if (place < 0)
+        throw std::logic_error(fmt::format("path classes: light from {} bounces that cannot occur", bounces));
+      sums[place] += value;
+    }
+}
+
+}  // namespace relight
