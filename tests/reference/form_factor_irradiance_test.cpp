@@ -52,7 +52,7 @@ double midpoint_error(const Rectangle& source, int side) {
 
 // Mean over the receiver and at single points. Red if: a cosine, 1/pi or an albedo is lost, the picture is
 // sampled unevenly, or light passes where there is no surface. Tried: BRDF sampling without the cosine,
-// result x 1.02, emission counted at the wrong bounce, pixels shifted by half a pixel (parallel).
+// throughput x 1.02, emission counted at the wrong bounce, next-event estimation without its cosine.
 void expect_form_factor(const Rectangle& source, const RadianceMeter& meter, const Light& light,
                         double source_radiance, double source_error, const Effort& effort) {
   const double scale = receiver_albedo * source_radiance;

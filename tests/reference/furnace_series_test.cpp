@@ -78,7 +78,8 @@ Scene flat_sphere(double albedo, uint32_t n) {
 // An integrating sphere: a point light in the middle gives every facet nearly the same irradiance E, so k
 // bounces bring albedo^(k+1) E / pi. As every point sees only the sphere, the light of the darkest and of the
 // brightest facet bound the answer. Red if: next-event estimation or light vertices count a bounce wrongly or
-// lack a factor (tried: 1/pi of the BRDF, cosine at the light vertex, x 1.02 on either strategy).
+// lack a factor (tried: next-event estimation without 1/pi, light vertices x 1.02, the second bounce
+// dropped).
 void expect_integrating_sphere(double albedo, const Effort& effort) {
   Scene scene = flat_sphere(albedo, 96);
   const Facets facets(scene);

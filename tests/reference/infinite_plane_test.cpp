@@ -55,7 +55,7 @@ RadianceMeter plate_above_plane(double z, double d) {
 
 // Red if: 1/r^2, a cosine at either end, 1/pi or an albedo is lost in either estimator; its light reaches far
 // along the plane, at grazing angles. Tried: next-event estimation without its cosine, area_pdf without cos,
-// connection without 1/d^2, result x 1.02.
+// connection without 1/d^2, throughput x 1.02.
 void expect_plane(const Effort& effort) {
   for (const glm::dvec2& place : {glm::dvec2(0.6, 0.0), glm::dvec2(1.0, 0.8), glm::dvec2(3.0, 2.0)}) {
     const double z = place.x, d = place.y;

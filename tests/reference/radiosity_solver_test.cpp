@@ -34,8 +34,8 @@ double quadrature(const Rectangle& from, const Rectangle& to, int n) {
   return sum * to.area() / std::pow(n, 4);
 }
 
-// Red if: offsets, orientation or the common axis are mixed up for rectangles anywhere (tried: the extents of
-// the two rectangles along the common axis exchanged for x and y).
+// Red if: offsets, orientation or the common axis are mixed up for rectangles anywhere (tried: the axis
+// after the first normal's taken for the common one).
 TEST(FormFactors, OfRectanglesAnywhereEqualQuadrature) {
   const Rectangle floor{{0.1, 0.0, 0.2}, {0, 0, 0.5}, {0.7, 0, 0}};
   const Rectangle ceiling{{-0.3, 0.8, 0.6}, {0.4, 0, 0}, {0, 0, 0.9}};
@@ -53,7 +53,7 @@ TEST(FormFactors, OfRectanglesAnywhereEqualQuadrature) {
   }
 }
 
-// Red if: a cell sees through the block, or the block hides what it doesn't.
+// Red if: a cell sees through the block, or the block hides what it doesn't (tried: every pair visible).
 TEST(RadiosityRoom, FormFactorsOfAClosedRoomSumToOne) {
   const RadiosityRoom empty(cornell_room(true, false).surfaces, {}, 1.0 / 6.0);
   for (size_t i = 0; i < empty.cells(); ++i) EXPECT_NEAR(empty.form_factor_sum(i), 1.0, 1e-10);

@@ -51,8 +51,8 @@ void read_places(const RadianceMeter& meter, const Effort& effort, Expect expect
 }
 
 // Radiance L from everywhere gives albedo L. Red if: light is lost at grazing angles or on the side of the
-// shading normal, a surface hides itself, or the environment counts twice. Tried: x 1.02, the ray offset
-// towards the inside, misses counted one bounce later.
+// shading normal, a surface hides itself, or the environment counts twice. Tried: throughput x 1.02, the ray
+// offset towards the inside, misses counted one bounce later.
 TEST(SphereInEnvironment, UniformLightIsReflectedByTheAlbedo) {
   Environment uniform;
   uniform.radiance = {2.0f, 1.0f, 0.5f};
@@ -68,7 +68,7 @@ TEST(SphereInEnvironment, UniformLightIsReflectedByTheAlbedo) {
 // Radiance 1 + 0.8 cos(w, axis) gives irradiance pi (1 + 0.8 2/3 cos(n, axis)). The map has 256 x 128 texels;
 // halfway between its texels linear interpolation is off by less than the half of (pi/128)^2 / 4.
 // Red if: the map is mirrored, turned the wrong way, shifted by a texel, or the cosine is lost. Tried: the
-// sign of rotation_y, u mirrored, the map shifted by two texels, a uniform instead of a cosine density.
+// sign of rotation_y, u mirrored, the map shifted by two texels, the cosine dropped from the throughput.
 TEST(SphereInEnvironment, ALinearSkyIsReflectedByTwoThirdsOfItsSlope) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.7, 0.4, -0.6));
   Environment sky;
