@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/run/error.h"
 #include "experiments/mitsuba/texture_file.h"
 
 namespace relight::mitsuba {
@@ -40,7 +41,7 @@ void write_diffuse(XmlWriter& xml, const Scene& scene, size_t index, const std::
   xml.close();
 }
 
-// Mitsuba 3 has no Phong model: render.py brings one with the formula of common/brdf/brdf.glsl.
+// Mitsuba 3 has no Phong model: render.py brings one with the formula of common/brdf/phong.glsl.
 void write_phong(XmlWriter& xml, const Scene& scene, size_t index, const std::filesystem::path& folder) {
   const Material& material = scene.materials[index];
   xml.open("bsdf", {{"type", "relight_phong"}, {"id", bsdf_id(index)}});
@@ -50,20 +51,44 @@ void write_phong(XmlWriter& xml, const Scene& scene, size_t index, const std::fi
   xml.close();
 }
 
+using Writer = void (*)(XmlWriter&, const Scene&, size_t, const std::filesystem::path&);
+constexpr const char* known_models = "diffuse, phong";
+
+// Null for a model without a writer.
+Writer writer_of(const Material& material) {
+  if (!material.is_glossy()) return write_diffuse;
+  return material.glossy_part().model() == BrdfModel::phong ? write_phong : nullptr;
+}
+
+const char* name_of(BrdfModel model) {
+  switch (model) {
+    case BrdfModel::phong:
+      return "phong";
+    case BrdfModel::ashikhmin_shirley:
+      return "ashikhmin_shirley";
+    case BrdfModel::lafortune:
+      return "lafortune";
+    case BrdfModel::ggx:
+      return "ggx";
+  }
+  return "unknown";
+}
+
 }  // namespace
 
-Model model_of(const Material& material) { return material.is_glossy() ? Model::phong : Model::diffuse; }
+void require_known_models(const Scene& scene) {
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    if (!writer_of(scene.materials[i]))
+      fail("material '{}' ({}) reflects with the {} model; models that the Mitsuba export knows: {}",
+           scene.materials[i].name, bsdf_id(i), name_of(scene.materials[i].glossy_part().model()),
+           known_models);
+}
 
 std::string bsdf_id(size_t material) { return fmt::format("material-{}", material); }
 
 void write_bsdf(XmlWriter& xml, const Scene& scene, size_t material, const std::filesystem::path& folder) {
   xml.comment(scene.materials[material].name);
-  switch (model_of(scene.materials[material])) {
-    case Model::diffuse:
-      return write_diffuse(xml, scene, material, folder);
-    case Model::phong:
-      return write_phong(xml, scene, material, folder);
-  }
+  writer_of(scene.materials[material])(xml, scene, material, folder);
 }
 
 }  // namespace relight::mitsuba

@@ -9,9 +9,9 @@
 
 namespace relight::mitsuba {
 
-// Reflection models of a Material; a new one needs a name here and a writer in bsdfs.cpp.
-enum class Model { diffuse, phong };
-Model model_of(const Material& material);
+// Throws Error naming the first material whose reflection model has no writer in bsdfs.cpp, and those that
+// have.
+void require_known_models(const Scene& scene);
 
 // "material-3".
 std::string bsdf_id(size_t material);

@@ -81,6 +81,7 @@ std::string export_mitsuba(const MitsubaExportOptions& options) {
     usage_fail("--max-bounces {}: expected 0 (direct light only) to {}", options.max_bounces, most_bounces);
   require_writable_folder("--out", options.out);
   const Scene scene = load_named_scene(options.scene);
+  mitsuba::require_known_models(scene);
   const std::string preset = choose_lighting(scene, options.lights);
   const LightingState lighting = load_named_lighting(scene, preset);
   const std::filesystem::path out = options.out;

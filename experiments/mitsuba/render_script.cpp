@@ -2,7 +2,7 @@
 
 namespace relight::mitsuba {
 
-// The formula is that of common/brdf/brdf.glsl; the lobe's samples below the horizon count as black, as ours
+// The formula is that of common/brdf/phong.glsl; the lobe's samples below the horizon count as black, as ours
 // do.
 const std::string& render_script() {
   static const std::string script = R"python(#!/usr/bin/env python3
@@ -15,7 +15,7 @@ import mitsuba as mi
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--spp", type=int, default=256, help="paths a pixel")
 parser.add_argument("--seed", type=int, default=0)
-parser.add_argument("--variant", default="llvm_ad_rgb", help="an RGB variant of Mitsuba, e.g. scalar_rgb")
+parser.add_argument("--variant", default="llvm_ad_rgb", help="an RGB variant of Mitsuba: scalar_rgb needs no LLVM")
 parser.add_argument("--out", default="mitsuba.exr")
 arguments = parser.parse_args()
 mi.set_variant(arguments.variant)
@@ -29,8 +29,8 @@ class Phong(mi.BSDF):
 
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
-        self.diffuse = props["diffuse"]
-        self.glossy = props["glossy"]
+        self.diffuse = props.get_texture("diffuse")
+        self.glossy = props.get_texture("glossy")
         self.exponent = props["exponent"]
         sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide
         self.m_components = [mi.BSDFFlags.GlossyReflection | sides, mi.BSDFFlags.DiffuseReflection | sides]
@@ -40,7 +40,7 @@ class Phong(mi.BSDF):
         """Both albedos, and the probability of sampling the glossy lobe."""
         diffuse, glossy = self.diffuse.eval(si, active), self.glossy.eval(si, active)
         total = dr.mean(diffuse) + dr.mean(glossy)
-        return diffuse, glossy, dr.select(total > 0, dr.mean(glossy) / total, 0)
+        return diffuse, glossy, dr.mean(glossy) / dr.maximum(total, 1e-20)
 
     @staticmethod
     def turned(wi, w):
@@ -82,7 +82,7 @@ class Phong(mi.BSDF):
         bs.sampled_component = dr.select(sample1 < share, mi.UInt32(0), mi.UInt32(1))
         bs.sampled_type = dr.select(sample1 < share, mi.UInt32(+mi.BSDFFlags.GlossyReflection),
                                     mi.UInt32(+mi.BSDFFlags.DiffuseReflection))
-        return bs, dr.select(bs.pdf > 0, value / bs.pdf, 0)
+        return bs, value / dr.maximum(bs.pdf, 1e-20)
 
     def to_string(self):
         return f"relight_phong[exponent={self.exponent}]"
