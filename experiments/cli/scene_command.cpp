@@ -1,4 +1,4 @@
-// relight scene list | info NAME|FILE
+// relight scene list | info NAME|FILE | export NAME|FILE
 #include <cstdio>
 #include <memory>
 
@@ -7,7 +7,9 @@
 
 #include "common/scene/scene_file.h"
 #include "experiments/cli/commands.h"
+#include "experiments/mitsuba/export.h"
 #include "experiments/session/session.h"
+#include "experiments/usage_error.h"
 
 namespace relight::cli {
 
@@ -30,10 +32,47 @@ int scene_info(const std::string& name) {
   return 0;
 }
 
+struct ExportOptions {
+  std::string format;
+  MitsubaExportOptions mitsuba;
+};
+
+int export_scene(const ExportOptions& options) {
+  if (options.format != "mitsuba") usage_fail("--format '{}': valid: mitsuba", options.format);
+  fmt::print("{}", export_mitsuba(options.mitsuba));
+  return 0;
+}
+
+void add_export_command(CLI::App& parent, Action& action) {
+  CLI::App* command = parent.add_subcommand(
+      "export", "The scene, its lights and the view as input of another renderer (see docs/mitsuba.md)");
+  const auto options = std::make_shared<ExportOptions>();
+  MitsubaExportOptions& mitsuba = options->mitsuba;
+  command->add_option("scene", mitsuba.scene, "Built-in scene with parameters, or a file")
+      ->required()
+      ->type_name("NAME|FILE");
+  command->add_option("--format", options->format, "For which renderer")->required()->type_name("mitsuba");
+  command
+      ->add_option("--lights", mitsuba.lights,
+                   "Lighting preset of the scene (see `relight scene info`), or a file")
+      ->type_name("PRESET|FILE");
+  command->add_option("--view", mitsuba.view, "Size of the picture in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command->add_option("--max-bounces", mitsuba.max_bounces, "Bounces of indirect light, 0: direct light only")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--out", mitsuba.out, "Folder for scene.xml, meshes, textures and render.py")
+      ->required()
+      ->type_name("DIR");
+  command->callback([&action, options] { action = [options] { return export_scene(*options); }; });
+}
+
 }  // namespace
 
 void add_scene_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("scene", "Built-in scenes, and what is in a scene");
+  CLI::App* command =
+      app.add_subcommand("scene", "Built-in scenes, what is in a scene, and scenes for other renderers");
   command->require_subcommand(1);
   CLI::App* list = command->add_subcommand("list", "The built-in scenes and their parameters");
   list->callback([&action] { action = list_scenes; });
@@ -45,6 +84,7 @@ void add_scene_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("NAME|FILE");
   info->callback([&action, name] { action = [name] { return scene_info(*name); }; });
+  add_export_command(*command, action);
 }
 
 }  // namespace relight::cli

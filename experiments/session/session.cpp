@@ -35,16 +35,6 @@ std::string preset_names(const Scene& scene) {
   return names.empty() ? "none" : names;
 }
 
-LightingState load_named_lighting(const Scene& scene, const std::string& name) {
-  if (!scene.lightings.contains(name) && !std::filesystem::exists(name)) {
-    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name,
-               scene.name, preset_names(scene));
-  }
-  LightingState lighting = load_lighting(scene, name);
-  validate(lighting);
-  return lighting;
-}
-
 }  // namespace
 
 Scene load_named_scene(const std::string& name) {
@@ -63,6 +53,16 @@ Scene load_named_scene(const std::string& name) {
   } catch (const Error& error) {
     throw UsageError(error.what());  // a wrong parameter of a built-in scene was typed, not stored in a file
   }
+}
+
+LightingState load_named_lighting(const Scene& scene, const std::string& name) {
+  if (!scene.lightings.contains(name) && !std::filesystem::exists(name)) {
+    usage_fail("--lights '{}': neither a file nor a preset of scene '{}'; valid presets: {}", name,
+               scene.name, preset_names(scene));
+  }
+  LightingState lighting = load_lighting(scene, name);
+  validate(lighting);
+  return lighting;
 }
 
 std::string choose_lighting(const Scene& scene, const std::string& wanted) {

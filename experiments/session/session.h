@@ -54,6 +54,9 @@ Scene load_named_scene(const std::string& name);
 // The preset to use when `wanted` may be empty; UsageError listing the presets if there is no obvious one.
 std::string choose_lighting(const Scene& scene, const std::string& wanted);
 
+// The lighting of that preset or file, checked; UsageError listing the presets if it is neither.
+LightingState load_named_lighting(const Scene& scene, const std::string& name);
+
 ArtefactCache open_cache(const SessionOptions& options);
 
 }  // namespace relight
