@@ -31,8 +31,7 @@ std::pair<double, double> albedo_by_sampling(const shader::BrdfParams& brdf, con
 
 // White furnace: the albedo of the red channel (where diffuse + glossy is 1 in many cases) is at most 1. Red
 // if a normalisation is too large, or Fresnel ignores what the diffuse part reflects (tried: rise to 1
-// instead of 1 - k_d: 'over paint' reaches 1.9 at grazing angles; A-S dividing by min instead of max of the
-// cosines).
+// instead of 1 - k_d; A-S dividing by the smaller cosine).
 TEST(Albedo, IsAtMostOneForEveryModelAndAngle) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (const glm::vec3& wo : test::eye_directions()) {
@@ -43,8 +42,8 @@ TEST(Albedo, IsAtMostOneForEveryModelAndAngle) {
 }
 
 // Red if evaluation and density disagree by a factor, or a part of the lobe is never sampled (tried: GGX
-// density without the mask of the eye; Lafortune's choice of lobe without its rescaled u). Bound: four
-// standard errors of the estimate if its terms reach their largest value, and 0.3 % for quadrature.
+// density without the mask of the eye, or without its factor 1/2). Bound: four standard errors of the
+// estimate if its terms reach their largest value, and 0.3 % for quadrature.
 TEST(Albedo, BySamplingAgreesWithQuadrature) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (const glm::vec3& wo : test::eye_directions()) {
@@ -56,7 +55,8 @@ TEST(Albedo, BySamplingAgreesWithQuadrature) {
 }
 
 // Sampling is importance sampling: the weight of a glossy sample never exceeds the lobe's reflectance. Red if
-// half vectors are drawn from another distribution than the density says.
+// half vectors are drawn from another distribution than the value has (tried: nu and nv exchanged in the
+// density).
 TEST(Albedo, WeightsOfGgxAndAshikhminShirleySamplesAreAtMostOne) {
   for (const test::BrdfCase& c : test::brdf_cases()) {
     const uint32_t model = shader::brdf_model(c.brdf.shape);

@@ -29,7 +29,7 @@ const glm::vec3 normals[] = {
     {0, 0, 1}, {0, 0, -1}, {-1, -0.0f, -0.0f}, glm::normalize(glm::vec3(0.3f, -0.2f, 0.9f))};
 
 // Red if a sample at an end of [0,1) needs sqrt of a negative number, a zero half vector, tan(pi/2) or log(0)
-// (tried: the radius of a GGX cap as sqrt(1 - z^2) unclamped; the A-S density without its smallest cosine).
+// (tried: the A-S value and density without their smallest denominators).
 TEST(Degenerate, SamplesAtTheEndsOfTheUnitIntervalAreFiniteUnitVectors) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (const glm::vec3& n : normals)
@@ -48,8 +48,8 @@ TEST(Degenerate, SamplesAtTheEndsOfTheUnitIntervalAreFiniteUnitVectors) {
             }
 }
 
-// Red if wi = wo, wi = -wo, both grazing or one below the horizon divides 0 by 0 or overflows (tried: A-S
-// without its smallest denominator; half vector normalised without its test).
+// Red if wi = wo, wi = -wo, both grazing or one below the horizon divides 0 by 0 or overflows (tried: the
+// same).
 TEST(Degenerate, ValuesAndDensitiesAreFiniteForEveryPairOfHardDirections) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (const glm::vec3& n : normals)

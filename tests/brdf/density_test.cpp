@@ -92,12 +92,10 @@ double p_value(const Cells& cells) {
 
 // Chi-square test, 1 % significance over all cases together (Bonferroni), seed fixed: a correct program fails
 // it with a chance of 1 % when the seed is changed. Red if directions are drawn from another distribution
-// than the density (tried: sqrt(nu+1) and sqrt(nv+1) swapped in the A-S half vector; GGX's phi and radius
-// from swapped signs; Lafortune's axis without its ratios; lobe chosen by u instead of u/probability).
+// than the density (tried: sqrt(nu+1) and sqrt(nv+1) swapped in the A-S half vector; alphas exchanged and a
+// wrong radius in the GGX cap; Lafortune's axis without its ratios or not normalised in the density).
 TEST(Density, SampledDirectionsFollowIt) {
-  std::vector<test::BrdfCase> cases = test::brdf_cases();
-  // At 1e5, floats know the cosine to the mirror direction too coarsely for Phong and Lafortune: 6e-8 times
-  // the exponent is 0.6 % of the density. The tests of the integral and of the albedo cover them.
+  const std::vector<test::BrdfCase> cases = test::brdf_cases();
   const double level = 0.01 / double(cases.size() * test::eye_directions().size());
   for (const test::BrdfCase& c : cases)
     for (const glm::vec3& wo : test::eye_directions()) {
@@ -106,7 +104,7 @@ TEST(Density, SampledDirectionsFollowIt) {
     }
 }
 
-// Red if sample and density go through different code.
+// Red if sample and density go through different code (tried: a sample's density without its diffuse part).
 TEST(Density, OfASampleIsWhatBrdfPdfSays) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (const glm::vec3& wo : test::eye_directions())

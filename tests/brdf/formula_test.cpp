@@ -26,8 +26,8 @@ void expect_value(const shader::BrdfParams& brdf, const glm::dvec3& o, const glm
   EXPECT_NEAR(found, expected, 2e-4 * expected + 1e-12) << o.z << ' ' << i.z;
 }
 
-// Ashikhmin and Shirley 2000, equation 4. Red if nu and nv are exchanged, or the tangent frame turned
-// (tried).
+// Ashikhmin and Shirley 2000, equation 4. Red if nu and nv are exchanged, or the smaller cosine divides (both
+// tried).
 TEST(Formula, AshikhminShirleyIsThePapersEquation) {
   const double nu = 10, nv = 100, f0 = 0.2, kd = 0.3;
   for (const auto& [a, b] : pairs) {
@@ -40,8 +40,8 @@ TEST(Formula, AshikhminShirleyIsThePapersEquation) {
   }
 }
 
-// Heitz 2014 with slopes and tangents: D (equation 85), Lambda (72), height-correlated G2 (99). Red if
-// masking is uncorrelated, alpha squared twice, or the alphas exchanged (tried).
+// Heitz 2014 with slopes and tangents: D (equation 85), Lambda (72), height-correlated G2 (99). Red if one
+// direction is not masked, an alpha is squared twice, or the alphas are exchanged (all tried).
 TEST(Formula, GgxIsHeitzsEquation) {
   const double au = 0.2, av = 0.5, f0 = 0.6;
   const auto lambda = [&](const glm::dvec3& w) {
@@ -59,7 +59,8 @@ TEST(Formula, GgxIsHeitzsEquation) {
 }
 
 // Lafortune et al. 1997, equation 7, each lobe normalised to its albedo at normal incidence. Red if lobes
-// exchange exponents, ratios or shares (tried: second and third share).
+// exchange exponents, ratios or shares (tried: the second share given to the third lobe too). The albedos are
+// multiples of 1/1023 of their sum.
 TEST(Formula, LafortuneIsTheSumOfItsLobes) {
   const std::vector<LafortuneLobe> lobes = {{-1.0f, -0.75f, 1.0f, 12.0f, glm::vec3(0.25f)},
                                             {0.5f, 0.5f, 2.0f, 3.0f, glm::vec3(0.75f * 6.0f / 11.0f)},
@@ -93,7 +94,8 @@ TEST(Formula, ALafortuneLobeWithRatiosOfMinusOneIsPhong) {
 }
 
 // Helmholtz reciprocity, near the mirror direction and away from it. Red if a lobe depends on which direction
-// is which: light and eye sub-paths would disagree (tried: GGX with G1(o) alone; A-S dividing by o.z).
+// is which: light and eye sub-paths would disagree (tried: GGX masking of one direction only; A-S dividing by
+// o.z).
 TEST(Reciprocity, HoldsForEveryModel) {
   for (const test::BrdfCase& c : test::brdf_cases())
     for (uint32_t k = 0; k < 400; ++k) {
@@ -139,7 +141,8 @@ TEST(Anisotropy, FollowsTheTangentAndOnlyForAnisotropicMaterials) {
   }
 }
 
-// The lobe is wide where the exponent is small and alpha large. Red if u and v are exchanged.
+// The lobe is wide where the exponent is small and alpha large. Red if u and v are exchanged (tried for both
+// models).
 TEST(Anisotropy, TheLobeIsWideAlongTheRoughDirection) {
   const glm::vec3 o(0, 0, 1), along_u = test::direction(0.95, 0.0), along_v = test::direction(0.95, pi / 2);
   for (const GlossyPart& part :

@@ -12,7 +12,7 @@ namespace {
 // Red if rounding the shares creates or loses energy, or lets a lobe that is not there have some (tried:
 // shares rounded each by itself).
 TEST(LafortuneParts, AddUpToTheGlossyColourExactly) {
-  const LafortuneLobe lobes[3] = {{-1, -1, 1, 5, {0.1f, 0.2f, 0.0f}},
+  const LafortuneLobe lobes[3] = {{-1, -1, 1, 5, {0.1f, 0.2f, 0.7f}},
                                   {-1, -1, 1, 9, {0.3f, 0.1f, 0.7f}},
                                   {-1, -1, 1, 7, {0.2f, 0.1f, 0.1f}}};
   for (size_t count = 1; count <= 3; ++count) {

@@ -128,6 +128,12 @@ TEST(ContentHash, ChangesWithEveryKindOfContent) {
   EXPECT_TRUE(changed([](Scene& s) { s.triangles[3].material += 1; }));
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].exponent += 1.0f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].emission.x = 1.0f; }));
+  // The colour and the first exponent unchanged: only the shape tells the models and their other parameters
+  // apart.
+  EXPECT_TRUE(changed([](Scene& s) {
+    Material& m = s.materials[1];
+    m.set_glossy_part(ashikhmin_shirley_part(m.glossy, m.exponent, 0.0f));
+  }));
   EXPECT_TRUE(changed([](Scene& s) { s.textures[0].texels[7].y += 0.1f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.environment.radiance.z = 2.0f; }));
   EXPECT_FALSE(changed([](Scene& s) { s.camera.eye.x += 1.0f; }));

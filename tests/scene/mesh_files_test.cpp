@@ -135,6 +135,32 @@ TEST(SceneFiles, SetEveryFieldTheyName) {
   EXPECT_TRUE(scene.lightings.contains("near"));
 }
 
+// Red if a model's parameters land in another's fields, or a table that names no model changes it (tried:
+// exponent_u and exponent_v exchanged; the model dropped when only glossy is given).
+TEST(SceneFiles, ChooseTheReflectionModelOfAMaterial) {
+  const Scene scene = load_scene(testing_corpus::path("models.toml"));
+  const auto part = [&](const char* name) {
+    for (const Material& m : scene.materials)
+      if (m.name == name) return m.glossy_part();
+    ADD_FAILURE() << name;
+    return GlossyPart{};
+  };
+  EXPECT_EQ(part("white").model(), BrdfModel::ashikhmin_shirley);
+  EXPECT_EQ(part("white").glossy, glm::vec3(0.1f));
+  EXPECT_EQ(part("white").exponent, 10.0f);
+  EXPECT_EQ(part("white").shape.exponent_v, 100.0f);
+  EXPECT_EQ(part("red").model(), BrdfModel::ggx);
+  EXPECT_EQ(part("red").glossy, glm::vec3(0.08f));
+  EXPECT_EQ(part("red").exponent, 0.2f);
+  EXPECT_EQ(part("red").shape.exponent_v, 0.4f);
+  EXPECT_EQ(part("green").model(), BrdfModel::lafortune);
+  EXPECT_NEAR(part("green").glossy.x, 0.3f, 1e-6f);
+  EXPECT_EQ(part("green").exponent, 20.0f);
+  EXPECT_EQ(part("green").shape.exponent_v, 5.0f);
+  EXPECT_EQ(glm::unpackHalf2x16(part("green").shape.ratios_1), glm::vec2(0.5f));
+  EXPECT_EQ(part("blue grey").model(), BrdfModel::phong);
+}
+
 // Red if the spot's axis is not normalised or the default inner angle is not below the outer.
 TEST(LightingFiles, HoldOneLightATable) {
   const LightingState lighting = load_lighting(load_scene("cornell"), testing_corpus::path("lights.toml"));

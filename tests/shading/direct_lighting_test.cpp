@@ -51,6 +51,48 @@ TEST_F(Direct, TracedShadowsOnTheGpuEqualTheCpuTwin) {
   }
 }
 
+// Every model, with tangents and among samples without a shape; the GPU against the CPU twin. Stated bound:
+// 1e-5 of rounding_scale plus 1e-4 of the value (lobes magnify the rounding of half vectors). Red if a shape
+// is lost or shifted on its way to the GPU, or the frame differs (tried: shapes read one sample off;
+// has_shapes always 0; the tangent dropped in the upload).
+TEST(DirectModels, GpuEqualsTheCpuTwinForEveryModel) {
+  const auto context = gpu::Context::create("osmesa");
+  const LafortuneLobe lobes[2] = {{-1, -0.8f, 1, 30, glm::vec3(0.3f)}, {0.5f, 0.5f, 1, 6, glm::vec3(0.2f)}};
+  for (const GlossyPart& part :
+       {phong_part(glm::vec3(0.5f), 20), ashikhmin_shirley_part(glm::vec3(0.3f), 10, 200),
+        lafortune_part(lobes), ggx_part(glm::vec3(0.4f), 0.3f, 0.05f)}) {
+    Scene scene = test::room_scene();
+    for (Material& m : scene.materials) m.diffuse = glm::vec3(0.3f), m.set_glossy_part(part);
+    scene.materials[0].set_glossy_part(GlossyPart{});  // half of the samples have no shape
+    finish_scene(scene);
+    const RayTracer tracer(scene);
+    std::vector<SurfaceSample> samples = test::random_samples(tracer, 20000);
+    for (size_t i = 0; i < samples.size(); i += 3) {
+      samples[i].glossy = part.glossy, samples[i].exponent = part.exponent;
+      samples[i].shape = part.shape, samples[i].shape.tangent = float(i % 7) - 3.0f;
+    }
+    DirectLighting shading(*context, scene, tracer, {Shadows::traced, 0});
+    StageLog log;
+    const auto gpu = shade(shading, samples, eye, two_lights(), Lobes::all, log);
+    const auto cpu = shade_direct_cpu(tracer, samples, eye, two_lights(), Lobes::all);
+    std::vector<float> scale = rounding_scale(samples, two_lights());
+    for (size_t i = 0; i < cpu.size(); ++i) scale[i] += 10.0f * std::max({cpu[i].x, cpu[i].y, cpu[i].z});
+    EXPECT_LE(largest_error(gpu, cpu, scale), 1e-5f) << int(part.model());
+    EXPECT_GT(lit(cpu), samples.size() / 10);
+  }
+}
+
+// Red if Phong scenes pay for shapes, or one shape among many samples is overlooked.
+TEST_F(Direct, ShapesAreStoredOnlyIfASampleNeedsThem) {
+  const GpuSamples phong(samples_, eye);
+  EXPECT_FALSE(phong.has_shapes());
+  EXPECT_EQ(phong.bytes(), 64 * 20000);
+  std::vector<SurfaceSample> one = samples_;
+  one.back().glossy = glm::vec3(0.1f);
+  one.back().shape = ggx_part(glm::vec3(0.1f), 0.2f, 0.2f).shape;
+  EXPECT_EQ(GpuSamples(one, eye).bytes(), (64 + 32) * 20000);
+}
+
 // Red if the glossy lobe is dropped or ignores the eye.
 TEST_F(Direct, AllLobesDifferFromDiffuseOnGlossySurfacesOnly) {
   DirectLighting shading(*context_, scene_, tracer_, {Shadows::traced, 0});
