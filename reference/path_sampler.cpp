@@ -35,17 +35,19 @@ struct PathSampler::Walk {
 };
 
 PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, const AreaLights& area,
-                         const EnvironmentSampler& environment, const LightPaths& paths,
-                         const PathClasses& classes, Estimator estimator)
+                         const EnvironmentSampler& environment, const PathClasses& classes,
+                         const PathTracerSettings& settings)
     : tracer_(tracer),
       lights_(lights),
       area_(area),
       environment_(environment),
-      paths_(paths),
+      paths_(settings.paths),
       classes_(classes),
-      connector_(tracer, lights, paths),
-      use_light_vertex_(estimator == Estimator::light_vertex && paths.max_bounces >= 1 && lights.emits()),
-      environment_counts_(paths.environment && !tracer.scene().environment.black()) {}
+      connector_(tracer, lights, settings.paths),
+      use_light_vertex_(settings.estimator == Estimator::light_vertex && settings.paths.max_bounces >= 1 &&
+                        lights.emits()),
+      environment_counts_(settings.paths.environment && !tracer.scene().environment.black()),
+      sample_extended_lights_(settings.sample_extended_lights) {}
 
 // Strategy "brdf": light reflected by y (found from `distance` away with density `density`) from one light,
 // with the weight of the balance heuristic against `connections` light vertices for each such sample.
@@ -129,7 +131,9 @@ void PathSampler::next_event_to_environment(Walk& walk, const glm::vec2& u) cons
 void PathSampler::hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSample& bounce,
                              float t_far) const {
   area_.for_each_shape_hit(origin, bounce.wi, t_far, [&](const ShapeHit& hit) {
-    const float light = directional_pdf(hit.area_pdf, hit.distance * hit.distance, hit.cosine);
+    const float light = sample_extended_lights_
+                            ? directional_pdf(hit.area_pdf, hit.distance * hit.distance, hit.cosine)
+                            : 0.0f;
     classes_.add(walk.vertex - 1, LightEnd::area,
                  walk.throughput.emitted(hit.radiance * (1.0f / (1.0f + light / bounce.pdf))), walk.sums);
   });
@@ -153,9 +157,9 @@ void PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const Pa
     const bool roulette = k > bounces_before_roulette;
     const glm::vec2 shared =
         roulette || !area_.empty() ? random.pair(dimension + roulette_and_area) : glm::vec2(0.0f);
-    if (emitter_counts && !area_.empty())
+    if (emitter_counts && sample_extended_lights_ && !area_.empty())
       next_event_to_area(walk, shared.y, random.pair(dimension + area_point));
-    if (emitter_counts && environment_counts_ && !environment_.empty())
+    if (emitter_counts && sample_extended_lights_ && environment_counts_ && !environment_.empty())
       next_event_to_environment(walk, random.pair(dimension + environment_direction));
 
     if (roulette) {
@@ -184,7 +188,7 @@ void PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const Pa
       hit_shapes(walk, origin, bounce, hit.valid ? hit.t : std::numeric_limits<float>::infinity());
     if (!hit.valid) {
       if (environment_counts_ && emitter_counts) {
-        const float other = environment_.pdf(bounce.wi) / bounce.pdf;
+        const float other = sample_extended_lights_ ? environment_.pdf(bounce.wi) / bounce.pdf : 0.0f;
         classes_.add(k - 1, LightEnd::environment,
                      walk.throughput.emitted(tracer_.scene().environment.lookup(bounce.wi) / (1.0f + other)),
                      sums);
@@ -195,7 +199,8 @@ void PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const Pa
     const float triangle_pdf = area_.triangle_pdf(hit.triangle);
     if (emitter_counts && triangle_pdf > 0.0f) {
       const float cosine = std::abs(glm::dot(current.geometric_normal, bounce.wi));
-      const float other = directional_pdf(triangle_pdf, hit.t * hit.t, cosine) / bounce.pdf;
+      const float other =
+          sample_extended_lights_ ? directional_pdf(triangle_pdf, hit.t * hit.t, cosine) / bounce.pdf : 0.0f;
       classes_.add(k - 1, LightEnd::area, walk.throughput.emitted(current.emission * (1.0f / (1.0f + other))),
                    sums);
     }

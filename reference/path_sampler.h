@@ -29,8 +29,8 @@ class PathSampler {
   static constexpr int connections_at_eye = 16;
 
   PathSampler(const RayTracer& tracer, const LightSampler& lights, const AreaLights& area,
-              const EnvironmentSampler& environment, const LightPaths& paths, const PathClasses& classes,
-              Estimator estimator);
+              const EnvironmentSampler& environment, const PathClasses& classes,
+              const PathTracerSettings& settings);
 
   // True if the estimator connects visible points to light vertices.
   bool connects_at_eye() const { return use_light_vertex_ && paths_.min_bounces <= 1; }
@@ -70,6 +70,7 @@ class PathSampler {
   LightConnector connector_;
   bool use_light_vertex_;
   bool environment_counts_;
+  bool sample_extended_lights_;
 };
 
 }  // namespace relight

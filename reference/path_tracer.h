@@ -59,6 +59,9 @@ struct PathTracerSettings {
   int batches = 8;  // independent scramblings; variance comes from their spread. >= 2
   Estimator estimator = Estimator::light_vertex;
   uint64_t seed = 1;
+  // False: lights with an area and the environment are found by BRDF rays only. Unbiased too, so a check of
+  // their sampling; in a closed room of even emission it has no noise at all.
+  bool sample_extended_lights = true;
   // > 0: stop before the batch that would exceed it; whole batches, direct light included; at least two
   // batches (with one_sequence: one).
   double time_limit_s = 0.0;

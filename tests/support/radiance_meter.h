@@ -27,6 +27,7 @@ struct Effort {
   int samples = 64, seeds = 24;
   Estimator estimator = Estimator::next_event;
   uint64_t first_seed = 1000;
+  bool sample_extended_lights = true;  // see PathTracerSettings
 };
 
 struct Reading {
@@ -60,6 +61,7 @@ class RadianceMeter {
     settings.paths.glossy_at_eye = settings.paths.glossy_interior = light.glossy;
     settings.samples_per_pixel = effort.samples, settings.batches = 2;
     settings.estimator = effort.estimator;
+    settings.sample_extended_lights = effort.sample_extended_lights;
     Reading reading;
     glm::dvec3 squares(0.0);
     for (int i = 0; i < effort.seeds; ++i) {
