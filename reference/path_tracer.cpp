@@ -164,7 +164,7 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
 
   StageTimer timer(log, "indirect");
   const int per_batch = (settings.samples_per_pixel + settings.batches - 1) / settings.batches;
-  const PathSampler sampler(tracer, lights, area, environment, settings.paths, classes, settings);
+  const PathSampler sampler(tracer, lights, area, environment, classes, settings);
   BatchRenderer renderer(sampler, tracer, buffer, settings, per_batch);
   Run run(settings, result.direct, renderer,
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
