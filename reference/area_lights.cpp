@@ -31,8 +31,7 @@ glm::vec2 to_disc(const glm::vec2& u) {
 AreaLights::AreaLights(const Scene& scene, const LightingState& lighting, bool triangles) : scene_(scene) {
   if (triangles) add_triangles();
   add_shapes(lighting);
-  for (Shape& shape : shapes_)
-    shape.area_pdf = static_cast<float>(luminance(shape.light.intensity) / power_);
+  for (Shape& shape : shapes_) shape.area_pdf = static_cast<float>(luminance(shape.light.intensity) / power_);
   for (float& pdf : triangle_pdf_) pdf = static_cast<float>(static_cast<double>(pdf) / power_);
 }
 

@@ -35,9 +35,9 @@ struct BatchRenderer::Tile {
   EyeTile eye[4];  // by sub-pixel: visible points of the 16 pixels
   int paths = 1;
   uint64_t scramble = 0, pixel_scramble[16];
-  std::vector<glm::dvec3> sum;     // of each class, pixel by pixel
+  std::vector<glm::dvec3> sum;    // of each class, pixel by pixel
   std::vector<glm::vec3> values;  // scratch: one sample of the same
-  double squares = 0.0;  // of the mean channel, over all pixels
+  double squares = 0.0;           // of the mean channel, over all pixels
 };
 
 BatchRenderer::BatchRenderer(const PathSampler& sampler, const RayTracer& tracer,
@@ -52,14 +52,15 @@ BatchRenderer::BatchRenderer(const PathSampler& sampler, const RayTracer& tracer
       tiles_y_((buffer.view.height + side - 1) / side) {
   state_.paths.assign(static_cast<size_t>(tiles_x_) * static_cast<size_t>(tiles_y_), 1);
   state_.pixels.resize(buffer.indirect.size());
-  if (sampler.classes().told_apart()) state_.layers.resize(buffer.indirect.size() * sampler.classes().count());
+  if (sampler.classes().told_apart())
+    state_.layers.resize(buffer.indirect.size() * sampler.classes().count());
 }
 
 int BatchRenderer::tasks() const { return tiles_y_; }
 
 int& BatchRenderer::paths_of(int x0, int y0) {
-  return state_.paths[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) +
-                static_cast<size_t>(x0 / side)];
+  return state_
+      .paths[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) + static_cast<size_t>(x0 / side)];
 }
 
 BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence) const {
@@ -173,7 +174,8 @@ void BatchRenderer::sample_tile(Tile& tile, uint32_t index, Counts& counts) cons
     for (int c = 0; sampler_.connects_at_eye() && c < connections; ++c) {
       const LightVertex y =
           c == 0 ? light : connector.trace({tile.scramble, first + static_cast<uint32_t>(c)}, counts.rays);
-      if (y.surface.valid) connector.connect(eye, y, connections, sampler_.classes(), tile.values.data(), counts.rays);
+      if (y.surface.valid)
+        connector.connect(eye, y, connections, sampler_.classes(), tile.values.data(), counts.rays);
     }
   }
   const uint32_t paths = static_cast<uint32_t>(tile.paths);

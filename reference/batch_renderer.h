@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "reference/path_sampler.h"
-#include "reference/path_tracer_state.h"
 #include "reference/path_tracer.h"
+#include "reference/path_tracer_state.h"
 
 namespace relight {
 

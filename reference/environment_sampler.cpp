@@ -33,9 +33,10 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) : environ
   if (environment.texels.empty() || environment.black()) return;
   const int w = environment.width, h = environment.height;
   const auto texel = [&](int x, int y) {
-    return luminance(environment.radiance *
-                     environment.texels[static_cast<size_t>(std::clamp(y, 0, h - 1)) * static_cast<size_t>(w) +
-                                        static_cast<size_t>((x + w) % w)]);
+    return luminance(
+        environment.radiance *
+        environment.texels[static_cast<size_t>(std::clamp(y, 0, h - 1)) * static_cast<size_t>(w) +
+                           static_cast<size_t>((x + w) % w)]);
   };
   constexpr double tap[3] = {0.125, 0.75, 0.125};
   std::vector<double> rows, columns;
@@ -76,8 +77,8 @@ EnvironmentSample EnvironmentSampler::sample(const glm::vec2& u) const {
   if (empty()) return sample;
   double y_inside = 0.0, x_inside = 0.0;
   const size_t row = find(rows_.data(), rows_.size(), static_cast<double>(u.y), y_inside);
-  const size_t column = find(columns_.data() + row * static_cast<size_t>(width_),
-                             static_cast<size_t>(width_), static_cast<double>(u.x), x_inside);
+  const size_t column = find(columns_.data() + row * static_cast<size_t>(width_), static_cast<size_t>(width_),
+                             static_cast<double>(u.x), x_inside);
   // Uniform in solid angle within the texel: cos(theta) is linear in u.
   const double top = std::cos(pi * static_cast<double>(row) / height_),
                bottom = std::cos(pi * static_cast<double>(row + 1) / height_);

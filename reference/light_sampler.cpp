@@ -35,8 +35,8 @@ LightSampler::LightSampler(const LightingState& lighting, float scene_diagonal)
     // W, up to a factor: intensity x solid angle (a spot's falloff between the cones doesn't matter here).
     // A directional light's power: what passes through a square of the scene's size.
     const bool directional = light.type == LightType::directional;
-    const double extent = directional ? std::pow(static_cast<double>(scene_diagonal), 2) / two_pi
-                                      : entry.one_minus_cosine;
+    const double extent =
+        directional ? std::pow(static_cast<double>(scene_diagonal), 2) / two_pi : entry.one_minus_cosine;
     const double weight =
         extent * static_cast<double>(light.intensity.x + light.intensity.y + light.intensity.z);
     if (!(weight > 0.0)) continue;

@@ -1,5 +1,5 @@
-// The delta lights (omni, spot, directional) of a lighting state as a path tracer samples them: which light, and which direction from
-// it.
+// The delta lights (omni, spot, directional) of a lighting state as a path tracer samples them: which light,
+// and which direction from it.
 #pragma once
 
 #include <vector>

@@ -16,7 +16,8 @@ std::string PathClass::name() const {
   return fmt::format("b{}{}.{}{}.{}", bounces, or_more ? "+" : "", eye, interior, end_name);
 }
 
-PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment) {
+PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area,
+                         bool environment) {
   last_ = std::min(most_bounces + 1, paths.max_bounces);
   place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
   for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)

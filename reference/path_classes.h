@@ -28,7 +28,7 @@ struct SplitRadiance {
 };
 
 struct PathClass {
-  int bounces = 0;  // vertices between the visible surface and the light; -1: the emitter itself is seen
+  int bounces = 0;       // vertices between the visible surface and the light; -1: the emitter itself is seen
   bool or_more = false;  // "and all longer paths"
   bool glossy_at_eye = false;
   bool glossy_interior = false;

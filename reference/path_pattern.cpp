@@ -134,8 +134,7 @@ struct Matcher {
   }
 
   bool once(const Node& node, size_t at, const Function& then) const {
-    if (node.alternatives.empty())
-      return at < word.size() && (word[at] & node.lobes) != 0 && then(at + 1);
+    if (node.alternatives.empty()) return at < word.size() && (word[at] & node.lobes) != 0 && then(at + 1);
     for (const std::vector<Node>& alternative : node.alternatives)
       if (match(alternative, 0, at, then)) return true;
     return false;
@@ -165,13 +164,16 @@ void count_words(const Pattern& pattern, const PathClass& c, int interior, Count
 bool selects(const Pattern& pattern, const PathClass& c, const std::string& text) {
   if (!pattern.ends[static_cast<int>(c.end)]) return false;
   if (c.bounces < 0) return matches(pattern, {});
-  if (c.bounces > 12) fail("light paths: patterns are decided for up to 12 bounces only, not for {}", c.name());
+  if (c.bounces > 12)
+    fail("light paths: patterns are decided for up to 12 bounces only, not for {}", c.name());
   Count count;
   for (int more = 0; more <= (c.or_more ? 3 : 0); ++more) count_words(pattern, c, c.bounces + more, count);
   if (count.matching != 0 && count.matching != count.all)
-    fail("light paths: '{}' takes some paths of class {} and leaves others; classes tell the number of bounces{}, "
-         "the lobe at the visible surface, and whether all other vertices are diffuse or some glossy",
-         text, c.name(), c.or_more ? fmt::format(" (up to {} here)", c.bounces - 1) : "");
+    fail(
+        "light paths: '{}' takes some paths of class {} and leaves others; classes tell the number of "
+        "bounces{}, "
+        "the lobe at the visible surface, and whether all other vertices are diffuse or some glossy",
+        text, c.name(), c.or_more ? fmt::format(" (up to {} here)", c.bounces - 1) : "");
   return count.matching > 0;
 }
 

@@ -10,8 +10,8 @@
 //                                           Le (environment)
 // Spaces mean nothing. E L is an emitter or the environment seen directly.
 //
-// A pattern selects classes of path_classes.h. One that would take some paths of a class and leave others (for
-// instance E D D G L: which of the two interior vertices is glossy) is refused.
+// A pattern selects classes of path_classes.h. One that would take some paths of a class and leave others
+// (for instance E D D G L: which of the two interior vertices is glossy) is refused.
 #pragma once
 
 #include <string>

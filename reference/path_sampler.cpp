@@ -104,9 +104,9 @@ void PathSampler::next_event_to_area(Walk& walk, float u_choice, const glm::vec2
   const float light = directional_pdf(point.area_pdf, segment.squared, cosine);
   const float brdf = brdf_pdf(walk.x.brdf, s.shading_normal, walk.x.wo, segment.direction, false);
   ++walk.rays;
-  const bool visible =
-      point.on_surface ? tracer_.visible(s.position, s.geometric_normal, point.position, point.normal)
-                       : tracer_.visible_from_point(s.position, s.geometric_normal, point.position);
+  const bool visible = point.on_surface
+                           ? tracer_.visible(s.position, s.geometric_normal, point.position, point.normal)
+                           : tracer_.visible_from_point(s.position, s.geometric_normal, point.position);
   if (visible)
     classes_.add(walk.vertex - 1, LightEnd::area,
                  walk.throughput.reflect(reflected * (point.radiance / (light + brdf))), walk.sums);

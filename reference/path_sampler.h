@@ -10,8 +10,8 @@
 // The sum of F / (m p_b + n p_l) over all m + n samples is the estimate. Near corners p_b bounds it, in a
 // spot's lit patch p_l does.
 //
-// Light with an extent (emitting surfaces, rectangles, discs, environment maps) is found from each vertex both
-// by a point or direction drawn from the light and by the BRDF's ray, combined in the same way.
+// Light with an extent (emitting surfaces, rectangles, discs, environment maps) is found from each vertex
+// both by a point or direction drawn from the light and by the BRDF's ray, combined in the same way.
 #pragma once
 
 #include "reference/area_lights.h"
@@ -43,8 +43,8 @@ class PathSampler {
 
   // Radiance leaving x1 towards the eye along paths of the allowed numbers of bounces, one sample, without
   // what the caller gets from connections_at_eye connections to x1 itself. `light` (may be invalid) is
-  // connected to the vertices behind x1. Adds to sums[0, classes().count()), which may become non-finite if the
-  // scene's data are, and the number of rays traced to `rays`.
+  // connected to the vertices behind x1. Adds to sums[0, classes().count()), which may become non-finite if
+  // the scene's data are, and the number of rays traced to `rays`.
   void sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random, glm::vec3* sums,
               int64_t& rays) const;
 

@@ -56,9 +56,11 @@ void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage
   all.insert(all.end(), classes.classes().begin(), classes.classes().end());
   std::vector<uint8_t> chosen(all.size(), 0);
   const std::vector<size_t> selected = select_paths(pattern, all);
-  if (selected.empty()) fail("light paths: '{}' selects no path that this scene and these bounces have", pattern);
+  if (selected.empty())
+    fail("light paths: '{}' selects no path that this scene and these bounces have", pattern);
   for (const size_t i : selected) chosen[i] = 1;
-  Image* images[] = {&direct.local_diffuse, &direct.local_glossy, &direct.seen_area, &direct.seen_environment};
+  Image* images[] = {&direct.local_diffuse, &direct.local_glossy, &direct.seen_area,
+                     &direct.seen_environment};
   for (size_t i = 0; i < exact; ++i)
     if (!chosen[i]) *images[i] = Image(images[i]->width, images[i]->height);
   classes.select({chosen.begin() + static_cast<std::ptrdiff_t>(exact), chosen.end()});
@@ -93,8 +95,7 @@ class Run {
       const double start = elapsed();
       renderer_.render(progress);
       longest = std::max(longest, elapsed() - start);
-      if (settings_.on_batch)
-        settings_.on_batch({seconds(), renderer_.state().batches * per_batch, error()});
+      if (settings_.on_batch) settings_.on_batch({seconds(), renderer_.state().batches * per_batch, error()});
       if (elapsed() - saved >= settings_.checkpoint.every_s) {
         save();
         saved = elapsed();
@@ -136,9 +137,10 @@ void report(const PathTracerResult& result, StageLog& log) {
   if (result.non_finite > 0)
     log.warn(fmt::format("{} non-finite path samples were replaced by zero", result.non_finite));
   if (result.fireflies > 0)
-    log.warn(fmt::format("{} pixels are dominated by one bright batch: their value and variance are not to be "
-                         "trusted; more samples help",
-                         result.fireflies));
+    log.warn(
+        fmt::format("{} pixels are dominated by one bright batch: their value and variance are not to be "
+                    "trusted; more samples help",
+                    result.fireflies));
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ struct PathTracerSettings {
   std::string pattern;
   // > 0: stop as soon as the relative standard error is at or below it, after at least 4 batches.
   double target_error = 0.0;
-  Checkpoint checkpoint;  // resumed from, if there is one
+  Checkpoint checkpoint;                                  // resumed from, if there is one
   std::function<void(const ConvergencePoint&)> on_batch;  // called after each batch, on the caller's thread
 };
 
@@ -90,11 +90,11 @@ struct PathTracerResult {
   Image indirect_variance;  // variance of the mean, per channel; empty with one_sequence
   int samples_per_pixel = 0, batches = 0;  // actually done
   int64_t rays = 0;
-  int64_t non_finite = 0;  // samples replaced by zero; > 0 is a failure to report
-  int64_t fireflies = 0;   // pixels that one batch dominates (PixelStatistics::is_firefly)
-  double seconds = 0.0;    // of rendering, all sessions together
+  int64_t non_finite = 0;                // samples replaced by zero; > 0 is a failure to report
+  int64_t fireflies = 0;                 // pixels that one batch dominates (PixelStatistics::is_firefly)
+  double seconds = 0.0;                  // of rendering, all sessions together
   double relative_standard_error = 0.0;  // see ConvergencePoint; 0 with one_sequence
-  std::vector<PathLayer> layers;  // with class_bounces >= 0; the sum of those that count is total()
+  std::vector<PathLayer> layers;         // with class_bounces >= 0; the sum of those that count is total()
   Image total() const;
 };
 

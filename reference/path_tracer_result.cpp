@@ -14,7 +14,8 @@ Image PathTracerResult::total() const {
 namespace {
 
 // Statistics of class c of `count`, pixel by pixel.
-PathLayer sampled_layer(const PathTracerState& state, const PathClasses& classes, size_t c, const Image& size) {
+PathLayer sampled_layer(const PathTracerState& state, const PathClasses& classes, size_t c,
+                        const Image& size) {
   PathLayer layer{classes.classes()[c], Image(size.width, size.height), Image(size.width, size.height)};
   for (size_t i = 0; i < state.pixels.size(); ++i) {
     const PixelStatistics& s = state.layers[i * classes.count() + c];

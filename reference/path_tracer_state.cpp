@@ -83,8 +83,10 @@ std::optional<PathTracerState> load_state(const std::filesystem::path& file, con
   Reader reader{file, std::string_view(bytes).substr(magic.size())};
   const std::vector<char> found = reader.next_all<char>();
   if (std::string(found.begin(), found.end()) != key)
-    fail("checkpoint '{}' belongs to another run; delete it or choose another folder\n  there: {}\n  here:  {}",
-         file.string(), std::string(found.begin(), found.end()), key);
+    fail(
+        "checkpoint '{}' belongs to another run; delete it or choose another folder\n  there: {}\n  here:  "
+        "{}",
+        file.string(), std::string(found.begin(), found.end()), key);
   PathTracerState state;
   state.batches = reader.next<int>();
   state.rays = reader.next<int64_t>();

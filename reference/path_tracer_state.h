@@ -40,8 +40,8 @@ struct PixelStatistics {
 struct PathTracerState {
   int batches = 0;
   int64_t rays = 0, non_finite = 0;
-  double seconds = 0.0;                 // spent on it, all sessions together
-  std::vector<int> paths;               // a tile: paths from each visible point for each set of light vertices
+  double seconds = 0.0;    // spent on it, all sessions together
+  std::vector<int> paths;  // a tile: paths from each visible point for each set of light vertices
   std::vector<PixelStatistics> pixels;  // all classes together
   std::vector<PixelStatistics> layers;  // pixels x classes; empty if classes are not told apart
 };

@@ -61,8 +61,8 @@ struct EyeVertex {
   }
 };
 
-// Throughput of an eye path by lobe, as far as the vertex it has reached. At the eye vertex itself nothing has
-// been split yet: `started` is false.
+// Throughput of an eye path by lobe, as far as the vertex it has reached. At the eye vertex itself nothing
+// has been split yet: `started` is false.
 class Throughput {
  public:
   // Radiance if the vertex reflects `r` of it towards the eye.

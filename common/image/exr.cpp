@@ -9,6 +9,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "common/image/write_encoded.h"
 #include "common/run/atomic_file.h"
 #include "common/run/error.h"
 
@@ -18,18 +19,6 @@ namespace {
 
 // NaN and infinity must not pass for black or white when somebody looks at a picture.
 constexpr glm::u8vec3 non_finite_colour{255, 0, 255};
-
-// Encodes into memory and writes that: OpenImageIO's PNG writer does not tell of a full disk.
-void write_encoded(const std::filesystem::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
-  OIIO::Filesystem::IOVecOutput memory;
-  const auto out = OIIO::ImageOutput::create(file.string(), &memory);
-  if (!out) fail("cannot write '{}': {}", file.string(), OIIO::geterror());
-  if (!out->open(file.string(), spec)) fail("cannot write '{}': {}", file.string(), out->geterror());
-  const bool written = out->write_image(spec.format, pixels);
-  if (!out->close() || !written) fail("cannot write '{}': {}", file.string(), out->geterror());
-  const auto& buffer = memory.buffer();
-  write_text_atomically(file, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
-}
 
 void require_pixels(const std::filesystem::path& file, const Image& image) {
   if (image.width < 1 || image.height < 1) fail("cannot write '{}': the image has no pixels", file.string());
@@ -49,6 +38,18 @@ glm::u8vec3 encode_pixel(const glm::vec3& linear) {
 }
 
 }  // namespace
+
+// Encodes into memory and writes that: OpenImageIO's PNG writer does not tell of a full disk.
+void write_encoded(const std::filesystem::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto out = OIIO::ImageOutput::create(file.string(), &memory);
+  if (!out) fail("cannot write '{}': {}", file.string(), OIIO::geterror());
+  if (!out->open(file.string(), spec)) fail("cannot write '{}': {}", file.string(), out->geterror());
+  const bool written = out->write_image(spec.format, pixels);
+  if (!out->close() || !written) fail("cannot write '{}': {}", file.string(), out->geterror());
+  const auto& buffer = memory.buffer();
+  write_text_atomically(file, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+}
 
 void write_exr(const std::filesystem::path& file, const Image& image,
                const std::map<std::string, std::string>& metadata) {

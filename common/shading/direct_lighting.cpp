@@ -76,8 +76,10 @@ void DirectLighting::shade(const LightingState& lighting, const std::vector<Requ
   for (const Light& light : lighting.lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
     if (light.type != LightType::omni && light.type != LightType::spot)
-      fail("direct lighting: light '{}' is neither omni nor spot; other lights are in the reference only, so far",
-           light.name);
+      fail(
+          "direct lighting: light '{}' is neither omni nor spot; other lights are in the reference only, so "
+          "far",
+          light.name);
     impl_->shade_light(light, first, requests, log);
     first = false;
   }

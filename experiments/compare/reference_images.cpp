@@ -17,9 +17,11 @@ constexpr int reference_version = 2;
 std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
 
 std::string words(const Light& light) {
-  return fmt::format("[type={} position={} direction={} intensity={} inner={} outer={} shadows={}]",
-                     static_cast<int>(light.type), words(light.position), words(light.direction),
-                     words(light.intensity), light.inner_degrees, light.outer_degrees, light.casts_shadows);
+  return fmt::format(
+      "[type={} position={} direction={} intensity={} inner={} outer={} shadows={} u={} v={} radius={}]",
+      static_cast<int>(light.type), words(light.position), words(light.direction), words(light.intensity),
+      light.inner_degrees, light.outer_degrees, light.casts_shadows, words(light.edge_u), words(light.edge_v),
+      light.radius);
 }
 
 std::string words(const LightPaths& paths) {
@@ -33,17 +35,21 @@ std::string words(const LightPaths& paths) {
 bool same_paths(const LightPaths& a, const LightPaths& b) { return words(a) == words(b); }
 
 std::string reference_key(const Session& session, const PathTracerSettings& settings) {
+  return fmt::format("{} samples={} batches={}", picture_key(session, settings), settings.samples_per_pixel,
+                     settings.batches);
+}
+
+std::string picture_key(const Session& session, const PathTracerSettings& settings) {
   const View& view = session.buffer().view;
   std::string lights;
   for (const Light& light : session.lighting().lights) lights += words(light);
   return fmt::format(
       "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "
-      "samples={} "
-      "batches={} estimator={} seed={}",
+      "estimator={} seed={} classes={} pattern='{}' extended={}",
       reference_version, session.scene().content_hash, words(view.camera.eye), words(view.camera.target),
       words(view.camera.up), view.camera.fov_y_degrees, view.width, view.height, lights,
-      words(settings.paths), settings.samples_per_pixel, settings.batches, to_string(settings.estimator),
-      settings.seed);
+      words(settings.paths), to_string(settings.estimator), settings.seed, settings.class_bounces,
+      settings.pattern, settings.sample_extended_lights);
 }
 
 ReferenceImages reference_images(Session& session, const PathTracerSettings& settings, StageLog& log) {

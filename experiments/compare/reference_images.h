@@ -16,7 +16,9 @@ struct ReferenceImages {
   double seconds = 0.0;  // wall time of this invocation: tracing or loading
 };
 
-// Everything the images depend on, in words and exact decimal numbers.
+// Everything the picture depends on but for the number of samples, in words and exact decimal numbers.
+std::string picture_key(const Session& session, const PathTracerSettings& settings);
+// The same with samples and batches.
 std::string reference_key(const Session& session, const PathTracerSettings& settings);
 
 // Traces or loads. A time limit makes the result depend on the machine's load, so such results are not

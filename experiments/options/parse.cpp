@@ -33,13 +33,13 @@ ViewSize parse_view(const std::string& text) {
   return {*width, *height};
 }
 
-BounceRange parse_bounces(const std::string& text) {
+BounceRange parse_bounces(const std::string& text, int least) {
   const size_t dots = text.find("..");
   const auto low = whole_number(text.substr(0, dots));
   const auto high = dots == std::string::npos ? low : whole_number(text.substr(dots + 2));
   if (!low || !high) usage_fail("--bounces '{}': expected a..b, e.g. 1..3, or one number", text);
-  if (*low < 1 || *low > *high || *high > max_bounces) {
-    usage_fail("--bounces '{}': expected 1 <= a <= b <= {} (direct light, 0 bounces, is always there)", text,
+  if (*low < least || *low > *high || *high > max_bounces) {
+    usage_fail("--bounces '{}': expected {} <= a <= b <= {} (direct light is always there)", text, least,
                max_bounces);
   }
   return {*low, *high};

@@ -17,10 +17,10 @@ struct ViewSize {
 ViewSize parse_view(const std::string& text);
 
 struct BounceRange {
-  int min = 1, max = 1;  // 1 <= min <= max <= 64
+  int min = 1, max = 1;  // min <= max <= 64
 };
-// "1..3", or "2" for 2..2.
-BounceRange parse_bounces(const std::string& text);
+// "1..3", or "2" for 2..2; not below `least`, 0 or 1.
+BounceRange parse_bounces(const std::string& text, int least = 1);
 std::string to_string(const BounceRange& range);
 
 // "next_event" or "light_vertex".

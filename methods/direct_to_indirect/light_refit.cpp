@@ -30,8 +30,9 @@ LightRefit::LightRefit(const TrainingLights& training, float ridge)
   // The serial variant of the library keeps unguarded global buffers: called from several threads, it gives
   // wrong numbers without a word.
   if (openblas_get_parallel() == 0)
-    fail("refit: the serial variant of OpenBLAS is installed, which is not safe to call from several threads; "
-         "install libopenblas0-pthread");
+    fail(
+        "refit: the serial variant of OpenBLAS is installed, which is not safe to call from several threads; "
+        "install libopenblas0-pthread");
   openblas_set_num_threads(1);  // tasks are the threads
 }
 
@@ -47,8 +48,8 @@ void LightRefit::refit(const std::vector<LaneCoefficient>& all,
               packed_.data(), static_cast<int>(lights), 0.0f, gram_.data(), static_cast<int>(n));
   target_.assign(n * lanes, 0.0f);
   cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(n), lanes, static_cast<int>(lights),
-              1.0f, packed_.data(), static_cast<int>(lights), residual_.data(), static_cast<int>(lights), 0.0f,
-              target_.data(), lanes);
+              1.0f, packed_.data(), static_cast<int>(lights), residual_.data(), static_cast<int>(lights),
+              0.0f, target_.data(), lanes);
   for (size_t i = 0; i < lanes; ++i)
     if (!kept[i].empty()) solve(kept[i], i);
 }
@@ -101,8 +102,7 @@ void LightRefit::solve(std::span<SparseEntry> row, size_t lane) {
   double trace = 0.0;
   for (size_t p = 0; p < size; ++p) {
     right_[p] = static_cast<double>(target_[at[p] * lanes + lane]);
-    for (size_t q = 0; q <= p; ++q)
-      matrix_[p * size + q] = static_cast<double>(gram_[at[p] * n + at[q]]);
+    for (size_t q = 0; q <= p; ++q) matrix_[p * size + q] = static_cast<double>(gram_[at[p] * n + at[q]]);
     trace += matrix_[p * size + p];
   }
   if (!(trace > 0.0)) return;  // no training light excites what the row keeps
@@ -111,7 +111,8 @@ void LightRefit::solve(std::span<SparseEntry> row, size_t lane) {
   int info = 0;
   // Row-major lower is column-major upper.
   dposv_("U", &order, &one, matrix_.data(), &order, right_.data(), &order, &info);
-  if (info != 0) fail("refit: the normal equations of a row of {} coefficients are not positive definite", size);
+  if (info != 0)
+    fail("refit: the normal equations of a row of {} coefficients are not positive definite", size);
   for (size_t p = 0; p < size; ++p) row[p].value += static_cast<float>(right_[p]);
 }
 

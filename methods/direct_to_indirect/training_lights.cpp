@@ -19,8 +19,7 @@ constexpr uint32_t attempts_a_light = 8;
 std::optional<Light> random_light(const RayTracer& tracer, const DeepFrameBuffer& buffer, uint64_t seed,
                                   uint64_t number) {
   const auto random = [&](uint64_t dimension) { return random_float(seed, stream, number, dimension); };
-  const SurfaceSample& from =
-      buffer.indirect[random_bits(seed, stream, number, 0) % buffer.indirect.size()];
+  const SurfaceSample& from = buffer.indirect[random_bits(seed, stream, number, 0) % buffer.indirect.size()];
   if (!from.valid) return std::nullopt;
   const glm::vec3 direction = sample_cosine(from.geometric_normal, {random(1), random(2)});
   const Hit hit = tracer.intersect(tracer.offset_point(from.position, from.geometric_normal), direction);
@@ -37,8 +36,8 @@ std::optional<Light> random_light(const RayTracer& tracer, const DeepFrameBuffer
   return light;
 }
 
-// The mean of the channels on each sample times its factor, of root mean square 1 over the cloud; empty if the
-// light reaches no sample. Not of mean 1: a light that almost touches a sample would outweigh all others.
+// The mean of the channels on each sample times its factor, of root mean square 1 over the cloud; empty if
+// the light reaches no sample. Not of mean 1: a light that almost touches a sample would outweigh all others.
 std::vector<float> normalised_light(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                                     const GatherCloud& cloud, std::span<const float> column_scale,
                                     const Light& light) {

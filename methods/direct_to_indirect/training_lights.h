@@ -20,8 +20,8 @@ struct TrainingLights {
 // `count` lights at random places in the space that the view samples see: three spots of 8 to 48 degrees in
 // random directions for each omni. Direct light (traced shadows, channels averaged) on the ordered cloud,
 // multiplied by column_scale where there is one, transformed to Haar; each light scaled so that its root mean
-// square over the cloud is 1. Lights that reach no gather sample are replaced; fewer than `count` are returned if hardly
-// any does. Deterministic.
+// square over the cloud is 1. Lights that reach no gather sample are replaced; fewer than `count` are
+// returned if hardly any does. Deterministic.
 TrainingLights make_training_lights(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                                     const GatherCloud& ordered_cloud, std::span<const float> column_scale,
                                     uint32_t count, uint64_t seed);

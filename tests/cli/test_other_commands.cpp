@@ -1,4 +1,6 @@
 // scene, methods, render, reference, cache: the real program on small input.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "common/image/exr.h"
@@ -120,7 +122,7 @@ TEST(ReferenceCommand, LeavesNothingHalfWrittenOnAFullDisk) {
           folder / "out",
       "trap '' XFSZ; ulimit -f 4; ");
   EXPECT_EQ(result.exit_code, 1) << result.out;
-  EXPECT_NE(result.err.find(".exr"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("state.relight"), std::string::npos) << result.err;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {
     if (entry.path().extension() == ".exr") {
       EXPECT_NO_THROW(read_exr(entry.path())) << entry.path();
@@ -129,13 +131,75 @@ TEST(ReferenceCommand, LeavesNothingHalfWrittenOnAFullDisk) {
   }
 }
 
+// Red if more samples start anew, if the same bits do not come of it, or if an earlier run with other
+// settings is overwritten without a word.
+TEST(ReferenceCommand, GoesOnFromWhatAnEarlierRunLeft) {
+  TemporaryFolder folder;
+  const auto run = [&](const std::string& out, const std::string& more) {
+    return run_program("reference --scene cornell --lights spot --view 24x18 --quiet --bounces 1..3 " + more +
+                       " --out " + folder / out);
+  };
+  ASSERT_EQ(run("parts", "--samples 16").exit_code, 0);
+  ASSERT_EQ(run("parts", "--samples 48").exit_code, 0);
+  ASSERT_EQ(run("whole", "--samples 48").exit_code, 0);
+  for (const char* name : {"indirect", "variance"})
+    EXPECT_EQ(read_exr(folder / "parts/" + name + ".exr").pixels,
+              read_exr(folder / "whole/" + name + ".exr").pixels);
+  const std::string csv = read_text(folder / "parts/convergence.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7) << csv;  // a head and six batches of 8
+  const ProgramResult other = run("parts", "--samples 48 --seed 2");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("state.relight"), std::string::npos) << other.err;
+  EXPECT_EQ(run("parts", "--samples 48 --seed 2 --restart").exit_code, 0);
+}
+
+// Red if a killed run starts anew, or goes on to other bits. The checkpoint of a run is written every 30 s
+// and at its end, so the run to be killed is made of a finished part and more that is killed at once.
+TEST(ReferenceCommand, SurvivesBeingKilled) {
+  TemporaryFolder folder;
+  const std::string common = "reference --scene cornell --lights omni --view 64x48 --quiet --out ";
+  ASSERT_EQ(run_program(common + folder / "killed" + " --samples 16").exit_code, 0);
+  const ProgramResult killed = run_program(common + folder / "killed" + " --samples 65536", "ulimit -t 1; ");
+  ASSERT_NE(killed.exit_code, 0);
+  ASSERT_EQ(run_program(common + folder / "killed" + " --samples 32").exit_code, 0);
+  ASSERT_EQ(run_program(common + folder / "whole" + " --samples 32").exit_code, 0);
+  EXPECT_EQ(read_exr(folder / "killed/total.exr").pixels, read_exr(folder / "whole/total.exr").pixels);
+}
+
+// Red if a pattern is ignored, or layers are missing or do not add up.
+TEST(ReferenceCommand, WritesLayersThatAddUpAndTheLightThatAPatternTakes) {
+  TemporaryFolder folder;
+  const std::string common =
+      "reference --scene still_life:detail=0.2 --lights spot --view 24x18 --quiet --samples 16 ";
+  ASSERT_EQ(run_program(common + "--layers --class-bounces 2 --out " + folder / "all").exit_code, 0);
+  const ProgramResult one = run_program(common + "--paths 'E D D L' --out " + folder / "one");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const auto json = nlohmann::json::parse(read_text(folder / "all/reference.json"));
+  Image sum(24, 18);
+  for (const auto& [name, mean] : json.at("mean_radiance_by_class").items()) {
+    const Image layer = read_exr_layer(folder / "all/layers.exr", name);
+    for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
+  }
+  const Image total = read_exr(folder / "all/total.exr"), picture = read_exr(folder / "one/total.exr");
+  const Image layer = read_exr_layer(folder / "all/layers.exr", "b1.D.D.local");
+  for (size_t i = 0; i < sum.pixels.size(); ++i) {
+    EXPECT_NEAR(sum.pixels[i].y, total.pixels[i].y, 1e-5f * (1.0f + total.pixels[i].y));
+    EXPECT_NEAR(picture.pixels[i].y, layer.pixels[i].y, 1e-6f * (1.0f + layer.pixels[i].y));
+  }
+  const ProgramResult wrong = run_program(common + "--paths 'E D Q L' --out " + folder / "wrong");
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("E D Q L\n      ^"), std::string::npos) << wrong.err;
+}
+
 // Red if the cache is not used, listed or emptied, or if clearing removes files that are not the cache's.
 TEST(CacheCommand, ListsAndClearsWhatAReferenceLeft) {
   TemporaryFolder folder;
   const std::string cache = " --cache " + folder / "cache";
   const std::string reference =
-      "reference --scene cornell --lights spot --view 8x6 --quiet --samples 16 --out " + folder / "out" +
-      cache;
+      "compare --scene cornell --lights spot --view 8x6 --quiet --reference-samples 16 --methods "
+      "path_tracing "
+      "--set path_tracing.samples=4 --out " +
+      folder / "out" + cache;
   EXPECT_NE(run_program("cache list" + cache).out.find("0 files"), std::string::npos);
   EXPECT_NE(run_program(reference).out.find("traced"), std::string::npos);
   EXPECT_NE(run_program(reference).out.find("from the cache"), std::string::npos);

@@ -49,8 +49,9 @@ double mean_relative_error(const SparseRows& rows, const SparseRows& whole, cons
   return sum / lights.count;
 }
 
-// The root mean square is 1 over the cloud (Parseval: the coefficients' squares sum to its size), and no light
-// is negative anywhere. Red if the transform is left out or a light is normalised before its column factors.
+// The root mean square is 1 over the cloud (Parseval: the coefficients' squares sum to its size), and no
+// light is negative anywhere. Red if the transform is left out or a light is normalised before its column
+// factors.
 TEST(TrainingLights, HaveRootMeanSquareOneAndAreDifferent) {
   const GatherSetup s(tiny::room(), 16, 12, 1024);
   std::vector<float> factors(1024);
@@ -101,7 +102,8 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
     const double mu = 0.5 * trace / static_cast<double>(last - first);
     for (uint64_t e = first; e < last; ++e) {
       ASSERT_EQ(cut.entries[e].column, fitted.entries[e].column);
-      const double d = static_cast<double>(fitted.entries[e].value) - static_cast<double>(cut.entries[e].value);
+      const double d =
+          static_cast<double>(fitted.entries[e].value) - static_cast<double>(cut.entries[e].value);
       double gradient = mu * d, scale = std::abs(mu * d);
       for (uint32_t t = 0; t < lights.count; ++t) {
         gradient += response(cut.entries[e].column, t) * error[t];
@@ -114,8 +116,8 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   EXPECT_GT(tested, 500);
 }
 
-// On lights that it has not seen: 0.217 -> 0.197 here. Red if the correction has the wrong sign or goes to the
-// wrong coefficients.
+// On lights that it has not seen: 0.217 -> 0.197 here. Red if the correction has the wrong sign or goes to
+// the wrong coefficients.
 TEST(LightRefit, HelpsOnOtherLights) {
   GatherSetup s(tiny::room(), 32, 24, 1024);
   FinalGatherSettings settings = short_rows();

@@ -27,8 +27,8 @@ void read_rectangle(const TomlTable& table, Light& light) {
   table.require("height");
   const auto width = static_cast<float>(table.number("width", 1.0, {0.0, 1e30, true}));
   const auto height = static_cast<float>(table.number("height", 1.0, {0.0, 1e30, true}));
-  const glm::vec3 up = table.vector(
-      "up", std::abs(light.direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
+  const glm::vec3 up =
+      table.vector("up", std::abs(light.direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1));
   const glm::vec3 u = glm::cross(up, light.direction);
   if (!(glm::length(u) > 0.0f)) fail("{}: parallel to the light's direction", table.where("up"));
   light.edge_u = 0.5f * width * glm::normalize(u);
