@@ -71,6 +71,8 @@ struct RayTracer::Embree {
   }
   void build(const Scene& source);
   bool free_segment(const glm::vec3& a, const glm::vec3& b) const;
+  bool occluded(const glm::vec3& origin, const glm::vec3& direction) const;
+  uint32_t occluded16(const RayLog::Packet& packet) const;
 };
 
 void RayTracer::Embree::build(const Scene& source) {
@@ -100,12 +102,39 @@ void RayTracer::Embree::build(const Scene& source) {
 bool RayTracer::Embree::free_segment(const glm::vec3& a, const glm::vec3& b) const {
   const glm::vec3 direction = b - a;
   if (!finite(a) || !finite(direction)) refuse_ray("end", a, b);
+  return !occluded(a, direction);
+}
+
+bool RayTracer::Embree::occluded(const glm::vec3& origin, const glm::vec3& direction) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   alignas(16) RTCRay ray;
-  set_ray(ray, a, direction, 1.0f);
+  set_ray(ray, origin, direction, 1.0f);
   rtcOccluded1(scene, &context, &ray);
-  return !(ray.tfar < 0.0f);  // Embree marks an occluded ray with tfar = -infinity
+  return ray.tfar < 0.0f;  // Embree marks an occluded ray with tfar = -infinity
+}
+
+// Bits of the active segments that something blocks.
+uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
+  alignas(64) RTCRay16 rays;
+  alignas(64) int valid[16];
+  for (unsigned i = 0; i < 16; ++i) {
+    const glm::vec3& origin = packet.origin[i];
+    const glm::vec3 direction = packet.end - origin;
+    valid[i] = (packet.active >> i) & 1u ? -1 : 0;
+    rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
+    rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
+    rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
+    rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, scene, &context, &rays);
+  uint32_t blocked = 0;
+  for (unsigned i = 0; i < 16; ++i)
+    if (valid[i] && rays.tfar[i] < 0.0f) blocked |= 1u << i;
+  return blocked;
 }
 
 RayTracer::RayTracer(const Scene& scene) : scene_(scene), embree_(std::make_unique<Embree>()) {
@@ -120,6 +149,7 @@ RayTracer::~RayTracer() = default;
 Hit RayTracer::intersect(const glm::vec3& origin, const glm::vec3& direction, float t_far) const {
   if (!finite(origin) || !finite(direction)) refuse_ray("origin or direction", origin, direction);
   if (!(t_far >= 0.0f)) fail("tracing: ray with t_far = {}; it must be >= 0", t_far);
+  if (log_) log_->add(RayLog::Kind::nearest, origin, direction, t_far);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   alignas(16) RTCRayHit query;
@@ -138,36 +168,53 @@ Hit RayTracer::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
 
 bool RayTracer::visible(const glm::vec3& p, const glm::vec3& np, const glm::vec3& q,
                         const glm::vec3& nq) const {
-  return embree_->free_segment(offset_point(p, np * side(np, p, q)), offset_point(q, nq * side(nq, q, p)));
+  const glm::vec3 a = offset_point(p, np * side(np, p, q)), b = offset_point(q, nq * side(nq, q, p));
+  if (log_) log_->add(RayLog::Kind::occlusion, a, b - a, 1.0f);
+  return embree_->free_segment(a, b);
 }
 
 bool RayTracer::visible_from_point(const glm::vec3& p, const glm::vec3& np, const glm::vec3& light) const {
-  return embree_->free_segment(offset_point(p, np * side(np, p, light)), light);
+  const glm::vec3 a = offset_point(p, np * side(np, p, light));
+  if (log_) log_->add(RayLog::Kind::occlusion, a, light - a, 1.0f);
+  return embree_->free_segment(a, light);
 }
 
 uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {
-  alignas(64) RTCRay16 rays;
-  alignas(64) int valid[16];
   if (!finite(q)) refuse_ray("end", q, q);
+  RayLog::Packet packet{{}, q, active};
   for (unsigned i = 0; i < 16; ++i) {
     const bool on = (active >> i) & 1u;
-    const glm::vec3 origin = on ? p[i] : q;  // an inactive entry may hold anything
-    const glm::vec3 direction = q - origin;
-    if (on && (!finite(origin) || !finite(direction))) refuse_ray("end", origin, q);
-    valid[i] = on ? -1 : 0;
-    rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
-    rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
-    rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
-    rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
+    packet.origin[i] = on ? p[i] : q;  // an inactive entry may hold anything
+    if (on && (!finite(p[i]) || !finite(q - p[i]))) refuse_ray("end", p[i], q);
   }
+  if (log_) log_->add_packet(packet.origin, q, active);
+  return active & ~embree_->occluded16(packet);
+}
+
+RayCounts RayTracer::replay(const RayLog::Thread& log) const {
+  RayCounts counts;
+  auto ray = log.rays.begin();
+  auto packet = log.packets.begin();
   RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid, embree_->scene, &context, &rays);
-  uint32_t free = 0;
-  for (unsigned i = 0; i < 16; ++i)
-    if (valid[i] && !(rays.tfar[i] < 0.0f)) free |= 1u << i;
-  return free;
+  for (const RayLog::Kind kind : log.order) {
+    rtcInitIntersectContext(&context);
+    if (kind == RayLog::Kind::packet) {
+      embree_->occluded16(*packet);
+      counts.in_packets += __builtin_popcount(packet->active);
+      ++packet;
+    } else if (kind == RayLog::Kind::occlusion) {
+      embree_->occluded(ray->origin, ray->direction);
+      ++counts.occlusion, ++ray;
+    } else {
+      alignas(16) RTCRayHit query;
+      set_ray(query.ray, ray->origin, ray->direction, ray->t_far);
+      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(embree_->scene, &context, &query);
+      ++counts.nearest, ++ray;
+    }
+  }
+  return counts;
 }
 
 }  // namespace relight

@@ -6,6 +6,7 @@
 
 #include "common/sampling/surface_sample.h"
 #include "common/scene/scene.h"
+#include "common/tracing/ray_log.h"
 
 namespace relight {
 
@@ -48,8 +49,14 @@ class RayTracer {
   glm::vec3 offset_point(const glm::vec3& p, const glm::vec3& n) const { return p + n * offset_; }
   float offset() const { return offset_; }
 
+  // Keeps every ray traced from now on; null: none. Not to be changed while rays are traced.
+  void set_log(RayLog* log) { log_ = log; }
+  // Traces the rays of one thread's log again, by Embree alone: no checks, no offsets, no shading.
+  RayCounts replay(const RayLog::Thread& log) const;
+
  private:
   const Scene& scene_;
+  RayLog* log_ = nullptr;
   float offset_ = 0.0f;
   struct Embree;
   std::unique_ptr<Embree> embree_;

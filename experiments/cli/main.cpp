@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   relight::cli::add_compare_command(app, action);
   relight::cli::add_report_command(app, action);
   relight::cli::add_cache_command(app, action);
+  relight::cli::add_bench_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

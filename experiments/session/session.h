@@ -27,6 +27,7 @@ class Session {
   const LightingState& lighting() const { return lighting_; }
   const std::string& lighting_name() const { return lighting_name_; }  // as `--lights` would name it
   const RayTracer& tracer() const { return *tracer_; }
+  RayTracer& tracer() { return *tracer_; }
   const DeepFrameBuffer& buffer() const { return buffer_; }
   ArtefactCache& cache() { return cache_; }
   Progress& progress() { return progress_; }

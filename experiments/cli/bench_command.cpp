@@ -1,0 +1,37 @@
+// relight bench
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "experiments/bench/bench.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/session_flags.h"
+
+namespace relight::cli {
+
+void add_bench_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "bench", "Speed of the path tracer in million rays a second, beside Embree alone on the same rays");
+  const auto options = std::make_shared<BenchOptions>();
+  options->session.view = "320x240";
+  add_session_flags(*command, options->session);
+  command->add_option("--bounces", options->bounces, "Bounces of indirect light")
+      ->type_name("A..B")
+      ->capture_default_str();
+  command->add_option("--samples", options->samples, "Paths a pixel; every ray is kept in memory")
+      ->capture_default_str();
+  command->add_option("--repeats", options->repeats, "Times to measure")->capture_default_str();
+  command->add_option("--estimator", options->estimator, "How paths are sampled")
+      ->type_name("next_event|light_vertex")
+      ->capture_default_str();
+  command->callback([&action, options] {
+    action = [options] {
+      fmt::print("{}", run_bench(*options));
+      return 0;
+    };
+  });
+}
+
+}  // namespace relight::cli
