@@ -30,6 +30,23 @@ LightVertex LightConnector::trace(const PathRandom& random, int64_t& rays) const
   return vertex;
 }
 
+// The common case of unshadowed(), from the eye by two diffuse vertices: a fraction of its arithmetic, the same
+// bits.
+glm::vec3 LightConnector::unshadowed_diffuse(const EyeVertex& x, const LightVertex& y, float count) const {
+  const Segment segment(x.surface->position, y.surface.position);
+  const glm::vec3& w = segment.direction;
+  const float cosine_y = -glm::dot(y.surface.geometric_normal, w);
+  const float cosine_x = glm::dot(x.surface->shading_normal, w);
+  if (!(cosine_y > 0.0f) || !(cosine_x > 0.0f) || !(glm::dot(x.surface->geometric_normal, w) > 0.0f))
+    return glm::vec3(0.0f);
+  const glm::vec3 reflected = shader::brdf_diffuse(x.brdf) * cosine_x;
+  if (black(reflected)) return reflected;
+  const float brdf = cosine_x * (1.0f / shader::rl_pi) * lights_.next_event_probability(y.light);
+  const float weight =
+      1.0f / (x.paths * brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y));
+  return shader::brdf_diffuse(y.brdf) * (y.irradiance * weight) * reflected;
+}
+
 SplitRadiance LightConnector::unshadowed(const EyeVertex& x, const Throughput& throughput,
                                          const LightVertex& y, float count) const {
   const Segment segment(x.surface->position, y.surface.position);
@@ -61,10 +78,17 @@ void LightConnector::connect(const EyeTile& tile, const LightVertex& y, float co
                              const PathClasses& classes, glm::vec3* sums, int64_t& rays) const {
   SplitRadiance values[16];
   uint32_t active = 0;
+  const bool diffuse_light = black(y.brdf.glossy);
   for (uint32_t i = 0; i < 16; ++i) {
     if (!((tile.valid >> i) & 1u)) continue;
-    values[i] = unshadowed(tile.vertex[i], Throughput(), y, count);
-    if (!black(values[i].sum())) active |= 1u << i;
+    const EyeVertex& x = tile.vertex[i];
+    if (diffuse_light && black(x.brdf.glossy)) {
+      values[i].value[0][0] = unshadowed_diffuse(x, y, count);
+      if (!black(values[i].value[0][0])) active |= 1u << i;
+    } else {
+      values[i] = unshadowed(x, Throughput(), y, count);
+      if (!black(values[i].sum())) active |= 1u << i;
+    }
   }
   if (active == 0) return;
   rays += __builtin_popcount(active);

@@ -40,6 +40,7 @@ class LightConnector {
                glm::vec3* sums, int64_t& rays) const;
 
  private:
+  glm::vec3 unshadowed_diffuse(const EyeVertex& x, const LightVertex& y, float count) const;
   SplitRadiance unshadowed(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
                            float count) const;
   const RayTracer& tracer_;
