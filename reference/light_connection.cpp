@@ -30,8 +30,8 @@ LightVertex LightConnector::trace(const PathRandom& random, int64_t& rays) const
   return vertex;
 }
 
-// The common case of unshadowed(), from the eye by two diffuse vertices: a fraction of its arithmetic, the same
-// bits.
+// The common case of unshadowed(), from the eye by two diffuse vertices: a fraction of its arithmetic, the
+// same bits.
 glm::vec3 LightConnector::unshadowed_diffuse(const EyeVertex& x, const LightVertex& y, float count) const {
   const Segment segment(x.surface->position, y.surface.position);
   const glm::vec3& w = segment.direction;

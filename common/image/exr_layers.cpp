@@ -57,8 +57,7 @@ Image read_exr_layer(const std::filesystem::path& file, const std::string& name)
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
     fail("cannot read '{}': {}", file.string(), in->geterror());
   for (size_t i = 0; i < image.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      image.pixels[i][c] = values[i * channels + static_cast<size_t>(channel[c])];
+    for (int c = 0; c < 3; ++c) image.pixels[i][c] = values[i * channels + static_cast<size_t>(channel[c])];
   return image;
 }
 

@@ -1,5 +1,5 @@
-// The rays of a computation, kept so that they can be traced again by Embree alone: what a renderer reaches is
-// reported as a share of that.
+// The rays of a computation, kept so that they can be traced again by Embree alone: what a renderer reaches
+// is reported as a share of that.
 #pragma once
 
 #include <cstdint>

@@ -71,7 +71,8 @@ Measured measure(Session& session, const PathTracerSettings& settings, int repea
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, threads.size(), 1),
         [&](const auto& range) {
-          for (size_t i = range.begin(); i < range.end(); ++i) counts[i] = session.tracer().replay(*threads[i]);
+          for (size_t i = range.begin(); i < range.end(); ++i)
+            counts[i] = session.tracer().replay(*threads[i]);
         },
         tbb::simple_partitioner());
   };
@@ -99,8 +100,10 @@ std::string run_bench(const BenchOptions& options) {
   const auto million = [](int64_t n) { return 1e-6 * static_cast<double>(n); };
   return fmt::format(
       "{} triangles, {} paths a pixel, {}, {}\n"
-      "rays                      {:8.2f} M: {:.2f} nearest hit, {:.2f} occlusion one by one, {:.2f} in packets of 16\n"
-      "path tracer, whole        {:8.2f} Mrays/s  (median of {}; direct light, shading and statistics included)\n"
+      "rays                      {:8.2f} M: {:.2f} nearest hit, {:.2f} occlusion one by one, {:.2f} in "
+      "packets of 16\n"
+      "path tracer, whole        {:8.2f} Mrays/s  (median of {}; direct light, shading and statistics "
+      "included)\n"
       "Embree alone, same rays   {:8.2f} Mrays/s\n"
       "share of Embree alone     {:8.2f}          ({})\n",
       session.scene().triangles.size(), settings.samples_per_pixel, settings.paths.to_string(),

@@ -1,6 +1,8 @@
 #include "methods/direct_to_indirect/light_refit.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include <cblas.h>
 
@@ -39,6 +41,7 @@ LightRefit::LightRefit(const TrainingLights& training, float ridge)
 void LightRefit::refit(const std::vector<LaneCoefficient>& all,
                        const std::array<std::span<SparseEntry>, lanes>& kept) {
   gather_residual(all);
+  weigh_lights();
   gather_kept(kept);
   if (columns_.empty()) return;
   const size_t n = columns_.size(), lights = training_.count;
@@ -70,6 +73,21 @@ void LightRefit::gather_residual(const std::vector<LaneCoefficient>& all) {
   }
 }
 
+// A light next to the tile would otherwise outweigh all that light it from afar. Fully relative weights
+// (without `mean`) make small answers darker still: docs/accuracy.md.
+void LightRefit::weigh_lights() {
+  const size_t lights = training_.count;
+  weights_.assign(lights, 0.0f);
+  float mean = 0.0f;
+  for (size_t t = 0; t < lights; ++t) {
+    for (size_t i = 0; i < lanes; ++i) weights_[t] += residual_[i * lights + t] * residual_[i * lights + t];
+    mean += weights_[t] / static_cast<float>(lights);
+  }
+  for (float& w : weights_) w = mean > 0.0f ? 1.0f / std::sqrt(w + mean) : 0.0f;
+  for (size_t i = 0; i < lanes; ++i)
+    for (size_t t = 0; t < lights; ++t) residual_[i * lights + t] *= weights_[t];
+}
+
 void LightRefit::gather_kept(const std::array<std::span<SparseEntry>, lanes>& kept) {
   columns_.clear();
   for (const auto& row : kept)
@@ -78,7 +96,8 @@ void LightRefit::gather_kept(const std::array<std::span<SparseEntry>, lanes>& ke
   columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
   packed_.resize(columns_.size() * training_.count);
   for (size_t k = 0; k < columns_.size(); ++k)
-    std::copy_n(response(columns_[k]), training_.count, packed_.data() + k * training_.count);
+    std::transform(weights_.begin(), weights_.end(), response(columns_[k]),
+                   packed_.data() + k * training_.count, std::multiplies<float>());
   values_.assign(columns_.size() * lanes, 0.0f);
   for (size_t i = 0; i < lanes; ++i) {
     size_t k = 0;

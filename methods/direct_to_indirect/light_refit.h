@@ -1,10 +1,12 @@
 // Refits the kept coefficients of truncated rows so that their answers to a set of training lights come
-// closest to those of the whole rows. Not in the paper.
+// closest to those of the whole rows, relative to their size. Not in the paper.
 //
 // With G the responses of all coefficients to the training lights, c a whole row and c_S what is kept of it,
-// the correction d minimises  |G_S^T (c_S + d) - G^T c|^2 + mu |d|^2,  mu = ridge x mean diagonal of G_S
-// G_S^T: dropped details are carried by kept coefficients that light usually excites together with them. The
-// ridge keeps it from learning the training lights by heart (docs/accuracy.md has figures for other lights).
+// the correction d minimises  |W (G_S^T (c_S + d) - G^T c)|^2 + mu |d|^2,  mu = ridge x mean diagonal of
+// G_S W^2 G_S^T, W = diag(1 / sqrt(y_t^2 + mean(y^2))) with y_t the root mean square answer to light t of the
+// tile's rows: dropped details are carried by kept coefficients that light usually excites together with
+// them. The ridge keeps it from learning the training lights by heart (docs/accuracy.md has figures for other
+// lights).
 #pragma once
 
 #include <array>
@@ -31,12 +33,14 @@ class LightRefit {
     return training_.response.data() + static_cast<size_t>(column) * training_.count;
   }
   void gather_residual(const std::vector<LaneCoefficient>& all);
+  void weigh_lights();
   void gather_kept(const std::array<std::span<SparseEntry>, lanes>& kept);
   void solve(std::span<SparseEntry> row, size_t lane);
 
   const TrainingLights& training_;
   double ridge_;
   std::vector<float> residual_;    // lanes x lights
+  std::vector<float> weights_;     // W
   std::vector<uint32_t> columns_;  // kept by any row of the tile, ascending
   std::vector<float> block_;       // responses of a block of coefficients
   std::vector<float> packed_;      // responses of columns_: columns x lights

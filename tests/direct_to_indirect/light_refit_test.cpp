@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "common/run/thread_limit.h"
 #include "common/wavelet/haar.h"
@@ -75,8 +77,29 @@ TEST(TrainingLights, HaveRootMeanSquareOneAndAreDifferent) {
   }
 }
 
+// Squared weights of the lights for each 4x4 tile of an 8x8 view, by the definition in light_refit.h.
+std::array<std::vector<double>, 4> squared_weights(const SparseRows& whole, const TrainingLights& lights) {
+  std::array<std::vector<double>, 4> out;
+  for (std::vector<double>& w : out) w.assign(lights.count, 0.0);
+  for (size_t i = 0; i < 64; ++i) {
+    const std::vector<double> row = dense_row(whole, i);
+    for (uint32_t t = 0; t < lights.count; ++t) {
+      double answer = 0.0;
+      for (size_t k = 0; k < row.size(); ++k)
+        answer += row[k] * static_cast<double>(lights.response[k * lights.count + t]);
+      out[i / 32 * 2 + i % 8 / 4][t] += answer * answer;
+    }
+  }
+  for (std::vector<double>& w : out) {
+    const double mean = std::accumulate(w.begin(), w.end(), 0.0) / lights.count;
+    for (double& x : w) x = 1.0 / (x + mean);
+  }
+  return out;
+}
+
 // The correction of one row against the definition, in double: the gradient
-// G_S (G_S^T (c_S + d) - G^T c) + mu d vanishes. Red if the ridge, the residual or a column is wrong.
+// G_S W^2 (G_S^T (c_S + d) - G^T c) + mu d vanishes. Red if the ridge, a weight, the residual or a column is
+// wrong.
 TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   GatherSetup s(tiny::room(), 8, 8, 256);
   const TrainingLights lights = lights_of(s, 24, 3);
@@ -88,8 +111,10 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   const auto response = [&](uint32_t k, uint32_t t) {
     return static_cast<double>(lights.response[k * lights.count + t]);
   };
+  const auto weights = squared_weights(whole, lights);
   int tested = 0;
   for (size_t i = 0; i < whole.rows(); ++i) {
+    const std::vector<double>& w2 = weights[i / 32 * 2 + i % 8 / 4];
     const uint64_t first = cut.row_start[i], last = cut.row_start[i + 1];
     if (first == last) continue;
     const std::vector<double> c = dense_row(whole, i), f = dense_row(fitted, i);
@@ -98,7 +123,8 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
     for (uint32_t t = 0; t < lights.count; ++t)
       for (uint32_t k = 0; k < 256; ++k) error[t] += (f[k] - c[k]) * response(k, t);
     for (uint64_t e = first; e < last; ++e)
-      for (uint32_t t = 0; t < lights.count; ++t) trace += std::pow(response(cut.entries[e].column, t), 2);
+      for (uint32_t t = 0; t < lights.count; ++t)
+        trace += w2[t] * std::pow(response(cut.entries[e].column, t), 2);
     const double mu = 0.5 * trace / static_cast<double>(last - first);
     for (uint64_t e = first; e < last; ++e) {
       ASSERT_EQ(cut.entries[e].column, fitted.entries[e].column);
@@ -106,8 +132,9 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
           static_cast<double>(fitted.entries[e].value) - static_cast<double>(cut.entries[e].value);
       double gradient = mu * d, scale = std::abs(mu * d);
       for (uint32_t t = 0; t < lights.count; ++t) {
-        gradient += response(cut.entries[e].column, t) * error[t];
-        scale += std::abs(response(cut.entries[e].column, t) * error[t]);
+        const double term = w2[t] * response(cut.entries[e].column, t) * error[t];
+        gradient += term;
+        scale += std::abs(term);
       }
       ASSERT_NEAR(gradient, 0.0, 1e-3 * scale + 1e-9);
       ++tested;
@@ -116,7 +143,7 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   EXPECT_GT(tested, 500);
 }
 
-// On lights that it has not seen: 0.217 -> 0.197 here. Red if the correction has the wrong sign or goes to
+// On lights that it has not seen: 0.217 -> 0.206 here. Red if the correction has the wrong sign or goes to
 // the wrong coefficients.
 TEST(LightRefit, HelpsOnOtherLights) {
   GatherSetup s(tiny::room(), 32, 24, 1024);
@@ -125,7 +152,7 @@ TEST(LightRefit, HelpsOnOtherLights) {
   const SparseRows cut = s.final_gather(settings), fitted = s.final_gather(settings, {}, training);
   settings.coefficients = 1024;
   const SparseRows whole = s.final_gather(settings);
-  EXPECT_LT(mean_relative_error(fitted, whole, others), 0.95 * mean_relative_error(cut, whole, others));
+  EXPECT_LT(mean_relative_error(fitted, whole, others), 0.97 * mean_relative_error(cut, whole, others));
 }
 
 TEST(LightRefit, HasTheSameBitsForOneAndTwoThreads) {
