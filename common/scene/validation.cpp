@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/run/error.h"
 #include "common/scene/mesh_repair.h"
@@ -139,6 +140,21 @@ void repair_materials(Scene& scene) {
   count(scene, "materials_with_albedo_above_1_scaled", too_bright);
 }
 
+void warn_of_far_origin(Scene& scene) {
+  Bounds bounds;
+  for (const Triangle& t : scene.triangles)
+    for (const uint32_t v : t.v) bounds.add(scene.positions[v]);
+  const double size = static_cast<double>(bounds.diagonal());
+  const glm::dvec3 far = glm::max(glm::abs(glm::dvec3(bounds.lo)), glm::abs(glm::dvec3(bounds.hi)));
+  const double blur = 32.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                      std::max({far.x, far.y, far.z}) / size;
+  if (size > 0.0 && blur > 1e-3)
+    scene.repairs.warnings.push_back(fmt::format(
+        "{}: lies {:.0f} times its own size from the origin, where single precision blurs it by {:.2g} of its size: "
+        "expect false shadows and leaks; move it towards the origin",
+        scene.name, std::max({far.x, far.y, far.z}) / size, blur));
+}
+
 void repair_scene(Scene& scene) {
   require_valid_indices(scene);
   count(scene, "unused_vertices_removed", unused_vertices(scene));
@@ -147,6 +163,7 @@ void repair_scene(Scene& scene) {
   repair_uvs(scene);
   compact_vertices(scene);
   repair_materials(scene);
+  warn_of_far_origin(scene);
 }
 
 }  // namespace relight

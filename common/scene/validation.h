@@ -26,5 +26,9 @@ void compact_vertices(Scene& scene);
 // Clamps negative values to 0, and scales the diffuse albedo so that diffuse (times the brightest texel) +
 // glossy <= 1.
 void repair_materials(Scene& scene);
+// Warns of a scene so far from the origin that floats blur it: rays start 32 units in the last place of the
+// largest coordinate off their surface, and from a thousandth of the scene's size on that shows (tests:
+// Invariance).
+void warn_of_far_origin(Scene& scene);
 
 }  // namespace relight

@@ -81,6 +81,19 @@ TEST(TriangleFaults, FindDuplicatesByPositionAndKeepTheFirst) {
   EXPECT_EQ(scene.positions.size(), 6u);
 }
 
+// Red if: the bound is absolute, or compares with the distance of the centre only.
+TEST(Repair, WarnsOfASceneTooFarFromTheOriginForItsSize) {
+  for (const float scale : {1e-3f, 1.0f, 1e3f})
+    for (const float distance : {0.0f, 100.0f, 10000.0f}) {
+      Scene scene = load_scene("cornell");
+      scene.repairs = {};
+      const float size = scene.bounds.diagonal();
+      for (glm::vec3& p : scene.positions) p = scale * (p + glm::vec3(distance * size, 0.0f, 0.0f));
+      warn_of_far_origin(scene);
+      EXPECT_EQ(scene.repairs.warnings.size(), distance > 1000.0f ? 1u : 0u) << scale << " " << distance;
+    }
+}
+
 // Red if NaN or infinite coordinates reach a texture lookup (assimp lets them through from some formats).
 TEST(Repair, SetsNonFiniteUvsToZeroAndCountsThem) {
   Scene scene = two_triangles();
