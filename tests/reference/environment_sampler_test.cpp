@@ -64,7 +64,7 @@ TEST(EnvironmentSampler, DrawsDirectionsWithTheDensityThatItStates) {
   }
 }
 
-// Red if (tried): the solid angle of a row is that of its middle, or the sum over rows is not normalised.
+// Red if (tried): texel_pdf() takes the solid angle of a row from its middle, or the rows' sum is off by 1 %.
 TEST(EnvironmentSampler, HasADensityThatIntegratesToOne) {
   for (const glm::ivec2 size : {glm::ivec2(12, 7), glm::ivec2(1, 1), glm::ivec2(2, 3), glm::ivec2(64, 32)}) {
     const Environment map = uneven_map(size.x, size.y, 0.7f);
@@ -94,8 +94,7 @@ TEST(EnvironmentSampler, StatesTheSameDensityForASampleAndForItsDirection) {
   }
 }
 
-// Red if (tried): find() ends on an interval without width (u = 0, or beyond the last bright texel), or the
-// sample of u near 1 leaves its texel.
+// Red if (tried): find() takes the first interval that reaches u (lower_bound): at u = 0 that has no width.
 TEST(EnvironmentSampler, StaysInTheMapAtTheEndsOfTheUnitSquare) {
   constexpr float almost_one = 1.0f - 0x1p-24f;
   for (const int column : {0, 3, 7})
