@@ -1,9 +1,9 @@
 // Regular expressions over the lobes of a path's vertices, and exact decisions about whole classes of paths:
 // does the expression hold for all of them, for none, or for some?
 //
-// Built after Thompson ("Regular Expression Search Algorithm", 1968); a class is decided by visiting every set of
-// states that its words can lead to (the subset construction), so that classes without a longest path are decided
-// too.
+// Built after Thompson ("Regular Expression Search Algorithm", 1968); a class is decided by visiting every
+// set of states that its words can lead to (the subset construction), so that classes without a longest path
+// are decided too.
 #pragma once
 
 #include <set>
@@ -27,11 +27,13 @@ class PathAutomaton {
 
   // Throws std::length_error for a pattern with repetitions that make it too large.
   explicit PathAutomaton(const std::vector<PatternNode>& vertices);
-  // Which of the class's words of lobes match. Throws std::length_error if that takes too many sets of states.
+  // Which of the class's words of lobes match. Throws std::length_error if that takes too many sets of
+  // states.
   Match match(const PathClass& c) const;
 
  private:
-  // Reads a vertex whose lobe is in `lobes` and goes on to `next`, or goes on to any of `free` without reading.
+  // Reads a vertex whose lobe is in `lobes` and goes on to `next`, or goes on to any of `free` without
+  // reading.
   struct State {
     int lobes = 0, next = 0;
     std::vector<int> free;

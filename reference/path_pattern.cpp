@@ -103,13 +103,16 @@ class Parser {
   size_t at_ = 0;
 };
 
-bool selects(const Pattern& pattern, const PathAutomaton& automaton, const PathClass& c, const std::string& text) {
+bool selects(const Pattern& pattern, const PathAutomaton& automaton, const PathClass& c,
+             const std::string& text) {
   if (!pattern.ends[static_cast<int>(c.end)]) return false;
   const PathAutomaton::Match match = automaton.match(c);
   if (match == PathAutomaton::Match::some)
-    fail("light paths: '{}' takes some paths of class {} and leaves others; classes tell the number of bounces{}, "
-         "the lobe at the visible surface, and whether all other vertices are diffuse or some glossy",
-         text, c.name(), c.or_more ? fmt::format(" (up to {} here)", c.bounces - 1) : "");
+    fail(
+        "light paths: '{}' takes some paths of class {} and leaves others; classes tell the number of "
+        "bounces{}, "
+        "the lobe at the visible surface, and whether all other vertices are diffuse or some glossy",
+        text, c.name(), c.or_more ? fmt::format(" (up to {} here)", c.bounces - 1) : "");
   return match == PathAutomaton::Match::all;
 }
 

@@ -71,8 +71,8 @@ TEST_P(OneTexel, HasADensityWhereverItsLightReaches) {
     }
 }
 
-// Mean of lookup / pdf against quadrature: 5 standard errors, a false alarm in 2e6. Red if (tried): the pdf
-// of the row above is given, or the solid angle lacks a factor.
+// Mean of lookup / pdf against quadrature: 5 standard errors, a false alarm in 2e6. Red if (tried): samples
+// come with the pdf of the row above.
 TEST_P(OneTexel, EstimatesItsWholeLight) {
   const EnvironmentSampler sampler(map_);
   std::mt19937_64 random(4);
@@ -92,8 +92,8 @@ TEST_P(OneTexel, EstimatesItsWholeLight) {
 }
 
 // A diffuse plate that faces the texel a little askew; radiance is albedo / pi x the quadrature of lookup x
-// cosine (48 x 48 points a texel: within 0.1 %). Red if (tried): the environment's shadow ray ends too early
-// or its light is weighted by the BRDF's density alone.
+// cosine (48 x 48 points a texel: within 0.1 %). Red if (tried): light from a drawn
+// direction is divided by the BRDF's density alone, or the rows' sum is off by 1 %.
 TEST_P(OneTexel, LightsAPlateAsQuadratureOverTheLookupSays) {
   const glm::dvec3 n = glm::normalize(direction_at(map_, centre_) + glm::dvec3(0.3, 0.2, -0.25));
   const glm::dvec3 a = glm::normalize(glm::cross(n, glm::dvec3(0.36, 0.48, 0.8))), b = glm::cross(n, a);
