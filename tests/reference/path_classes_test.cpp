@@ -4,6 +4,7 @@
 #include "common/run/error.h"
 #include "reference/direct_image.h"
 #include "reference/path_pattern.h"
+#include "reference/path_vertex.h"
 #include "tests/reference/class_scene.h"
 
 namespace relight::tiny {
@@ -34,6 +35,35 @@ void expect_same_picture(const Image& a, const Image& b) {
   for (size_t i = 0; i < a.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c)
       ASSERT_NEAR(a.pixels[i][c], b.pixels[i][c], 1e-5f * (0.1f + b.pixels[i][c])) << i;
+}
+
+// Against all 2^4 words of lobes written out. Red if (tried): a lobe is lost after a glossy interior vertex,
+// the eye's lobe counts as interior, or a survivor of Russian roulette loses a class.
+TEST(Throughput, HoldsEveryWordOfLobesInItsClass) {
+  const Reflected f[4] = {{{0.2f, 0.3f, 0.4f}, {0.5f, 0.1f, 0.0f}},
+                          {{0.7f, 0.6f, 0.5f}, {0.3f, 0.2f, 0.1f}},
+                          {{0.1f, 0.9f, 0.4f}, {0.8f, 0.3f, 0.6f}},
+                          {{0.4f, 0.2f, 0.3f}, {0.9f, 0.7f, 0.5f}}};
+  for (int vertices = 1; vertices <= 4; ++vertices) {
+    glm::vec3 expected[2][2] = {};
+    for (int word = 0; word < (1 << vertices); ++word) {
+      glm::vec3 product(1.0f);
+      for (int v = 0; v < vertices; ++v) product *= (word >> v) & 1 ? f[v].glossy : f[v].diffuse;
+      expected[word & 1][(word >> 1) != 0] += product;
+    }
+    Throughput before_last, after;
+    for (int v = 0; v + 1 < vertices; ++v) before_last.advance(f[v]);
+    for (int v = 0; v < vertices; ++v) after.advance(f[v]);
+    after.scale(0.5f);
+    const SplitRadiance reflected = before_last.reflect(f[vertices - 1]),
+                        emitted = after.emitted(glm::vec3(2.0f));
+    for (int eye = 0; eye < 2; ++eye)
+      for (int interior = 0; interior < 2; ++interior)
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(reflected.value[eye][interior][c], expected[eye][interior][c], 1e-6f);
+          EXPECT_NEAR(emitted.value[eye][interior][c], expected[eye][interior][c], 1e-6f);
+        }
+  }
 }
 
 // Red if (tried): light is left out of its class (connections at the eye), counted in two, or one lobe of a
