@@ -37,7 +37,7 @@ TEST(AreaLights, TrianglesShineFromBothSides) {
 }
 
 // A black sheet over x < 0 at half the height leaves, at the origin, the half of the light over x > 0. Red if
-// (tried): a shadow ray is left out, or a ray meets shapes behind what it hits.
+// (tried): a shadow ray is left out, or rays meet shapes behind what they hit.
 TEST(AreaLights, AreShadowed) {
   const check::Rectangle sheet{{-2, 0.5, -2}, {2, 0, 0}, {0, 0, 4}},
       half{{0, 1, -0.5}, {0.5, 0, 0}, {0, 0, 1}};

@@ -13,8 +13,8 @@ const glm::dvec3 places[] = {{0.1, 0, 0.3}, {0.5, 0, -0.2}, {-0.2, 0, 0.02}};
 
 glm::dvec3 reflected(double form_factor) { return floor_albedo * form_factor * glm::dvec3(shine); }
 
-// Form factors of a point and a rectangle. Red if (tried): the area or the half edges of the light lack a
-// factor of 2, the cosine at the light is lost, or points are drawn from a part of it.
+// Form factors of a point and a rectangle. Red if (tried): a ray's weight takes the density over the area
+// for one over directions, or the light's cosine loses its sign.
 TEST(RectangleLight, IrradianceIsItsFormFactor) {
   for (const check::Rectangle& r : {above, standing}) {
     const check::RadianceMeter meter(floor_scene(), lighting({rectangle_light(r, shine)}));
@@ -27,8 +27,7 @@ TEST(RectangleLight, IrradianceIsItsFormFactor) {
 }
 
 // The same light from a rectangle and from two triangles that shine as brightly, each against the form
-// factor. Red if (tried): the choice among triangles forgets that both of their sides shine, or areas are
-// halved.
+// factor. Red if (tried): points crowd at one corner of a triangle (no square root).
 TEST(EmittingMesh, GivesTheLightOfARectangleOfItsShape) {
   for (const check::Rectangle& r : {above, standing}) {
     Scene scene = floor_scene();
@@ -46,8 +45,7 @@ TEST(EmittingMesh, GivesTheLightOfARectangleOfItsShape) {
   }
 }
 
-// R^2 / (R^2 + d^2) on the axis. Red if (tried): the disc's area is that of its square, or points are drawn
-// from the square.
+// R^2 / (R^2 + d^2) on the axis. Red if (tried): the disc's area is that of its square.
 TEST(DiscLight, IrradianceOnTheAxisIsTheClosedForm) {
   for (const double distance : {0.05, 0.6, 1.9}) {
     const double radius = 0.5;
@@ -60,8 +58,8 @@ TEST(DiscLight, IrradianceOnTheAxisIsTheClosedForm) {
   }
 }
 
-// A tilted disc off the axis by a midpoint rule in polar coordinates. Red if (tried): points crowd at the
-// centre or the rim of the disc.
+// A tilted disc off the axis by a midpoint rule in polar coordinates. Red if (tried): points are
+// drawn with half their angle on two of the four wedges of the disc.
 TEST(DiscLight, IrradianceOfATiltedDiscIsItsIntegral) {
   const glm::dvec3 centre(0.3, 0.8, -0.1), axis = glm::normalize(glm::dvec3(-0.5, -1.0, 0.4));
   const double radius = 0.6;
@@ -82,8 +80,7 @@ TEST(DiscLight, IrradianceOfATiltedDiscIsItsIntegral) {
 
 // A sphere wholly above the horizon: (R/D)^2 times the cosine. The mesh lies inside the sphere by at most
 // 1 - cos(pi/64) of R at its edges, and latitude bands likewise: its form factor is less by under 2 x that
-// twice. Red if (tried): back faces are sampled but hits on them not weighted, or shadows forget the light's
-// own body.
+// twice. Red if (tried): shadow rays are left out: the light's own body hides half of its points.
 TEST(EmittingMesh, SphereShinesAsItsSquaredRadius) {
   Scene scene = floor_scene();
   const double radius = 0.3;
@@ -101,8 +98,7 @@ TEST(EmittingMesh, SphereShinesAsItsSquaredRadius) {
 }
 
 // A row of one dim, one bright and one dark light: power decides how often each is asked, never how much it
-// gives. Red if (tried): the choice is by area alone while densities are by power, or a dark light is divided
-// by.
+// gives. Red if (tried): the disc's area is that of its square.
 TEST(AreaLights, LightOfSeveralAddsUp) {
   const check::Rectangle far{{1.2, 0.5, -0.4}, {0.5, 0, 0}, {0, 0, 0.5}};
   Scene scene = floor_scene();
