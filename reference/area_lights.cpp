@@ -28,9 +28,10 @@ glm::vec2 to_disc(const glm::vec2& u) {
 
 }  // namespace
 
-AreaLights::AreaLights(const Scene& scene, const LightingState& lighting, bool triangles) : scene_(scene) {
+AreaLights::AreaLights(const Scene& scene, const LightingState& lighting, bool triangles, float lift)
+    : scene_(scene) {
   if (triangles) add_triangles();
-  add_shapes(lighting);
+  add_shapes(lighting, lift);
   for (Shape& shape : shapes_) shape.area_pdf = static_cast<float>(luminance(shape.light.intensity) / power_);
   for (float& pdf : triangle_pdf_) pdf = static_cast<float>(static_cast<double>(pdf) / power_);
 }
@@ -50,11 +51,12 @@ void AreaLights::add_triangles() {
   }
 }
 
-void AreaLights::add_shapes(const LightingState& lighting) {
+void AreaLights::add_shapes(const LightingState& lighting, float lift) {
   for (const Light& light : lighting.lights) {
     if (is_delta(light.type) || !(luminance(light.intensity) > 0.0)) continue;
     Shape shape{light, light.edge_u, light.edge_v, 0.0f};
     shape.light.direction = glm::normalize(light.direction);
+    shape.light.position += lift * shape.light.direction;
     if (light.type == LightType::disc) {
       const glm::mat3 frame = frame_around(shape.light.direction);
       shape.u = light.radius * frame[0], shape.v = light.radius * frame[1];

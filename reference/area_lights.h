@@ -26,8 +26,10 @@ struct ShapeHit {
 
 class AreaLights {
  public:
-  // triangles: do emitting surfaces count?
-  AreaLights(const Scene& scene, const LightingState& lighting, bool triangles);
+  // triangles: do emitting surfaces count? lift: how far rectangles and discs are moved to the side on which
+  // they shine (RayTracer::offset()), so that one in the plane of a ceiling lies before it, whatever rounding
+  // says.
+  AreaLights(const Scene& scene, const LightingState& lighting, bool triangles, float lift);
 
   bool empty() const { return sources_.empty(); }
   bool has_shapes() const { return !shapes_.empty(); }
@@ -61,7 +63,7 @@ class AreaLights {
   bool meets(size_t shape, const glm::vec3& origin, const glm::vec3& direction, float t_far,
              ShapeHit& hit) const;
   void add_triangles();
-  void add_shapes(const LightingState& lighting);
+  void add_shapes(const LightingState& lighting, float lift);
 
   const Scene& scene_;
   std::vector<Source> sources_;

@@ -33,6 +33,11 @@ class BatchRenderer {
   // What has been rendered so far; may be replaced by an earlier state of the same settings before the next
   // batch.
   const PathTracerState& state() const { return state_; }
+  // Has it as many tiles, pixels and path classes?
+  bool fits(const PathTracerState& state) const {
+    return state.paths.size() == state_.paths.size() && state.pixels.size() == state_.pixels.size() &&
+           state.layers.size() == state_.layers.size();
+  }
   void resume(PathTracerState state) { state_ = std::move(state); }
 
  private:

@@ -1,6 +1,7 @@
 #include "reference/path_classes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,9 +17,9 @@ std::string PathClass::name() const {
   return fmt::format("b{}{}.{}{}.{}", bounces, or_more ? "+" : "", eye, interior, end_name);
 }
 
-PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area,
-                         bool environment) {
-  last_ = std::min(most_bounces + 1, paths.max_bounces);
+PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment)
+    : told_apart_(true) {
+  last_ = std::clamp(most_bounces + 1, paths.min_bounces, paths.max_bounces);
   place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
   for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)
     for (const LightEnd end : {LightEnd::local, LightEnd::area, LightEnd::environment}) {
@@ -29,7 +30,8 @@ PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy,
         for (int interior = 0; interior <= (glossy && paths.glossy_interior && bounces > 0 ? 1 : 0);
              ++interior) {
           place_[slot(bounces, end, eye, interior)] = static_cast<int>(classes_.size());
-          classes_.push_back({bounces, bounces > most_bounces, eye == 1, interior == 1, end});
+          const bool or_more = bounces == last_ && last_ < paths.max_bounces;
+          classes_.push_back({bounces, or_more, eye == 1, interior == 1, end});
         }
     }
 }
@@ -44,6 +46,11 @@ void PathClasses::add(int bounces, LightEnd end, const SplitRadiance& radiance, 
       const glm::vec3& value = radiance.value[eye][interior];
       if (value == glm::vec3(0.0f)) continue;
       const int place = place_[slot(std::min(bounces, last_), end, eye, interior)];
+      if (place < 0 && !std::isfinite(value.x + value.y + value.z)) {
+        sums[0] +=
+            value;  // of a lobe that is not there, 0 x NaN: the sample is counted and dropped as a whole
+        continue;
+      }
       if (place < 0)
         throw std::logic_error(fmt::format("path classes: light from {} bounces that cannot occur", bounces));
       sums[place] += value;

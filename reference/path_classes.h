@@ -7,6 +7,7 @@
 // into its diffuse and glossy part whatever lobe was sampled, so that the split is exact.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -43,12 +44,14 @@ class PathClasses {
   // One accumulator for everything.
   PathClasses() = default;
   // A class for each bounce count up to `most_bounces` and one for more, times the lobes and ends that can
-  // occur under `paths`: `glossy` if any material is, `area` and `environment` if such light exists.
+  // occur under `paths`: `glossy` if any material is, `area` and `environment` if such light exists. The
+  // class for more begins at min_bounces if that is larger.
   PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment);
 
   // False: one accumulator.
-  bool told_apart() const { return !classes_.empty(); }
-  size_t count() const { return told_apart() ? classes_.size() : 1; }
+  bool told_apart() const { return told_apart_; }
+  // Accumulators; at least one, even where no class can occur (the direct image may be all there is).
+  size_t count() const { return std::max<size_t>(1, classes_.size()); }
   const std::vector<PathClass>& classes() const { return classes_; }
   // Which classes make up the picture; all, unless select() was called. `chosen` has count() entries.
   bool selected(size_t c) const { return chosen_.empty() || chosen_[c] != 0; }
@@ -57,6 +60,7 @@ class PathClasses {
   void add(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const;
 
  private:
+  bool told_apart_ = false;
   int last_ = 0;  // bounce counts from here on share a class
   std::vector<PathClass> classes_;
   std::vector<uint8_t> chosen_;

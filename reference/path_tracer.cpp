@@ -73,6 +73,11 @@ class Run {
       : settings_(settings), direct_(direct), renderer_(renderer) {
     if (!settings.checkpoint.file.empty()) {
       if (auto state = load_state(settings.checkpoint.file, settings.checkpoint.key)) {
+        if (!renderer.fits(*state))
+          fail(
+              "checkpoint '{}' belongs to a picture of another size or with other path classes; delete it or "
+              "choose another folder",
+              settings.checkpoint.file.string());
         renderer.resume(std::move(*state));
         resumed_ = true;
       }
@@ -152,7 +157,7 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   check(settings, buffer);
   const Scene& scene = tracer.scene();
   const LightSampler lights(lighting, scene.bounds.diagonal());
-  const AreaLights area(scene, lighting, settings.paths.emission);
+  const AreaLights area(scene, lighting, settings.paths.emission, tracer.offset());
   const EnvironmentSampler environment(scene.environment);
   PathClasses classes = path_classes(scene, settings, area);
   PathTracerResult result;
@@ -170,7 +175,8 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   BatchRenderer renderer(sampler, tracer, buffer, settings, per_batch);
   Run run(settings, result.direct, renderer,
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  progress.start("path tracing", int64_t{settings.batches - renderer.state().batches} * renderer.tasks());
+  progress.start("path tracing",
+                 int64_t{std::max(0, settings.batches - renderer.state().batches)} * renderer.tasks());
   const bool adaptive = settings.estimator == Estimator::light_vertex && !settings.one_sequence;
   if (!run.resumed() && adaptive && settings.samples_per_pixel >= least_samples_for_planning)
     renderer.plan(planning_samples);

@@ -96,7 +96,8 @@ std::optional<PathTracerState> load_state(const std::filesystem::path& file, con
   state.pixels = reader.next_all<PixelStatistics>();
   state.layers = reader.next_all<PixelStatistics>();
   const size_t checked = bytes.size() - reader.rest.size();
-  if (reader.next<uint64_t>() != checksum(std::string_view(bytes).substr(0, checked)))
+  const auto found_sum = reader.next<uint64_t>();
+  if (found_sum != checksum(std::string_view(bytes).substr(0, checked)) || !reader.rest.empty())
     fail("checkpoint '{}' is damaged; delete it to start anew", file.string());
   return state;
 }

@@ -33,6 +33,14 @@ void validate_rectangle(const Light& light, const std::string& who) {
   if (!std::isfinite(area) || !(area > 0.0f))
     fail("{}: edge_u is {} and edge_v {}; a rectangle needs an area", who, show(light.edge_u),
          show(light.edge_v));
+  // Rays and points drawn from the light would see different shapes. A hundredth of a degree is rounding.
+  const auto skewed = [](const glm::vec3& a, const glm::vec3& b) {
+    return std::abs(glm::dot(glm::normalize(a), glm::normalize(b))) > 2e-4f;
+  };
+  if (skewed(light.edge_u, light.edge_v) || skewed(light.edge_u, light.direction) ||
+      skewed(light.edge_v, light.direction))
+    fail("{}: edge_u is {}, edge_v {} and direction {}; they must be perpendicular to each other", who,
+         show(light.edge_u), show(light.edge_v), show(light.direction));
 }
 
 }  // namespace
