@@ -25,13 +25,20 @@ bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y
 
 }  // namespace
 
-// The state of one eye path.
+// The state of one eye path. Step k = `vertex` goes from x_k to x_(k+1); delta lights reach the eye from
+// there with k bounces, emitters with k - 1.
 struct PathSampler::Walk {
   EyeVertex x;
-  Throughput throughput;  // reaches x
+  Throughput throughput;  // reaches x; from the BRDF's ray on, what is seen along it
   int vertex = 1;         // x is x_vertex: light that arrives there has bounced vertex - 1 times
+  const PathRandom& random;
   glm::vec3* sums;
   int64_t& rays;
+  SurfaceSample behind{};  // what x points at from the second vertex on
+
+  glm::vec2 numbers(VertexDimension which) const {
+    return random.pair(static_cast<uint64_t>(vertex) * per_vertex + which);
+  }
 };
 
 PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, const AreaLights& area,
@@ -139,78 +146,103 @@ void PathSampler::hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSamp
   });
 }
 
+void PathSampler::next_event_to_extended(Walk& walk, float u_choice) const {
+  if (!sample_extended_lights_ || !bounces_count(walk.vertex - 1)) return;
+  if (!area_.empty()) next_event_to_area(walk, u_choice, walk.numbers(area_point));
+  if (environment_counts_ && !environment_.empty())
+    next_event_to_environment(walk, walk.numbers(environment_direction));
+}
+
+// Russian roulette: true if the path goes on.
+bool PathSampler::survives(Walk& walk, float u) const {
+  const glm::vec3 t = walk.throughput.sum();
+  const float survival = std::min(1.0f, std::max({t.x, t.y, t.z}));
+  if (!(u < survival)) return false;
+  walk.throughput.scale(1.0f / survival);
+  return true;
+}
+
+// Draws a direction from x's BRDF and takes throughput through x; pdf 0 if the path ends here.
+BrdfSample PathSampler::scatter(Walk& walk, float u_lobe) const {
+  const EyeVertex& x = walk.x;
+  BrdfSample bounce =
+      sample_brdf(x.brdf, x.surface->shading_normal, x.wo, u_lobe, walk.numbers(direction), false);
+  if (!(bounce.pdf > 0.0f)) return {};
+  const Reflected reflected = x.reflect(bounce.wi);
+  if (black(reflected.sum())) return {};
+  walk.throughput.advance(reflected * glm::vec3(1.0f / bounce.pdf));
+  if (black(walk.throughput.sum())) return {};
+  return bounce;
+}
+
+// Follows the BRDF's ray; adds the light with an extent that it meets before the next surface, or the
+// environment.
+Hit PathSampler::follow(Walk& walk, const BrdfSample& bounce) const {
+  const SurfaceSample& s = *walk.x.surface;
+  const glm::vec3 origin = tracer_.offset_point(s.position, s.geometric_normal);
+  if (!finite(origin) || !finite(bounce.wi)) {
+    walk.sums[0] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    return {};
+  }
+  ++walk.rays;
+  const Hit hit = tracer_.intersect(origin, bounce.wi);
+  if (!bounces_count(walk.vertex - 1)) return hit;
+  if (area_.has_shapes())
+    hit_shapes(walk, origin, bounce, hit.valid ? hit.t : std::numeric_limits<float>::infinity());
+  if (!hit.valid && environment_counts_) {
+    const float other = sample_extended_lights_ ? environment_.pdf(bounce.wi) / bounce.pdf : 0.0f;
+    const glm::vec3 radiance = tracer_.scene().environment.lookup(bounce.wi) / (1.0f + other);
+    classes_.add(walk.vertex - 1, LightEnd::environment, walk.throughput.emitted(radiance), walk.sums);
+  }
+  return hit;
+}
+
+// Light emitted by the surface behind, which the BRDF's ray has found.
+void PathSampler::hit_emitter(Walk& walk, const Hit& hit, const BrdfSample& bounce) const {
+  const float triangle_pdf = area_.triangle_pdf(hit.triangle);
+  if (!bounces_count(walk.vertex - 1) || !(triangle_pdf > 0.0f)) return;
+  const float cosine = std::abs(glm::dot(walk.behind.geometric_normal, bounce.wi));
+  const float other =
+      sample_extended_lights_ ? directional_pdf(triangle_pdf, hit.t * hit.t, cosine) / bounce.pdf : 0.0f;
+  classes_.add(walk.vertex - 1, LightEnd::area,
+               walk.throughput.emitted(walk.behind.emission * (1.0f / (1.0f + other))), walk.sums);
+}
+
+// From x to the next vertex; false if the path ends.
+bool PathSampler::step(Walk& walk, const LightVertex& light) const {
+  const bool counts = bounces_count(walk.vertex), roulette = walk.vertex > bounces_before_roulette;
+  if (walk.vertex > 1 && counts && light.surface.valid)
+    classes_.add(walk.vertex, LightEnd::local,
+                 connector_.connect(walk.x, walk.throughput, light, 1.0f, walk.rays), walk.sums);
+  const glm::vec2 shared = roulette || !area_.empty() ? walk.numbers(roulette_and_area) : glm::vec2(0.0f);
+  next_event_to_extended(walk, shared.y);
+  if (roulette && !survives(walk, shared.x)) return false;
+
+  const bool needs_choice = !black(walk.x.brdf.glossy) || !lights_.all();
+  const glm::vec2 choice = needs_choice ? walk.numbers(lobe_and_light) : glm::vec2(0.0f);
+  const BrdfSample bounce = scatter(walk, choice.x);
+  if (!(bounce.pdf > 0.0f)) return false;
+  const Hit hit = follow(walk, bounce);
+  if (!hit.valid) return false;
+
+  const float connections = walk.vertex == 1 ? static_cast<float>(connections_at_eye) / walk.x.paths : 1.0f;
+  walk.behind = tracer_.surface(hit, bounce.wi);
+  hit_emitter(walk, hit, bounce);
+  walk.x = {&walk.behind, allowed_brdf(walk.behind, paths_, false), -bounce.wi};
+  if (counts) {
+    const Reflected reflected = next_event(walk.x, hit.t, bounce.pdf, connections, choice.y, walk.rays);
+    classes_.add(walk.vertex, LightEnd::local, walk.throughput.reflect(reflected), walk.sums);
+  }
+  return true;
+}
+
 void PathSampler::sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random,
                          glm::vec3* sums, int64_t& rays) const {
   const bool extended = environment_counts_ || !area_.empty();
   const int last = paths_.max_bounces + (extended ? 1 : 0);
-  SurfaceSample current;
-  Walk walk{x1, {}, 1, sums, rays};
-  // Step k goes from vertex x_k to x_(k+1); delta lights reach the eye from there with k bounces, emitters
-  // with k - 1.
-  for (int k = 1; k <= last; ++k) {
-    walk.vertex = k;
-    const EyeVertex& x = walk.x;
-    const bool counts = bounces_count(k), emitter_counts = bounces_count(k - 1);
-    const uint64_t dimension = static_cast<uint64_t>(k) * per_vertex;
-    if (k > 1 && counts && light.surface.valid)
-      classes_.add(k, LightEnd::local, connector_.connect(x, walk.throughput, light, 1.0f, rays), sums);
-    const bool roulette = k > bounces_before_roulette;
-    const glm::vec2 shared =
-        roulette || !area_.empty() ? random.pair(dimension + roulette_and_area) : glm::vec2(0.0f);
-    if (emitter_counts && sample_extended_lights_ && !area_.empty())
-      next_event_to_area(walk, shared.y, random.pair(dimension + area_point));
-    if (emitter_counts && sample_extended_lights_ && environment_counts_ && !environment_.empty())
-      next_event_to_environment(walk, random.pair(dimension + environment_direction));
-
-    if (roulette) {
-      const glm::vec3 t = walk.throughput.sum();
-      const float survival = std::min(1.0f, std::max({t.x, t.y, t.z}));
-      if (!(shared.x < survival)) break;
-      walk.throughput.scale(1.0f / survival);
-    }
-    const bool needs_choice = !black(x.brdf.glossy) || !lights_.all();
-    const glm::vec2 choice = needs_choice ? random.pair(dimension + lobe_and_light) : glm::vec2(0.0f);
-    const BrdfSample bounce = sample_brdf(x.brdf, x.surface->shading_normal, x.wo, choice.x,
-                                          random.pair(dimension + direction), false);
-    if (!(bounce.pdf > 0.0f)) break;
-    const Reflected reflected = x.reflect(bounce.wi);
-    if (black(reflected.sum())) break;
-    walk.throughput.advance(reflected * glm::vec3(1.0f / bounce.pdf));
-    if (black(walk.throughput.sum())) break;
-    const glm::vec3 origin = tracer_.offset_point(x.surface->position, x.surface->geometric_normal);
-    if (!finite(origin) || !finite(bounce.wi)) {
-      sums[0] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
-      return;
-    }
-    ++rays;
-    const Hit hit = tracer_.intersect(origin, bounce.wi);
-    if (emitter_counts && area_.has_shapes())
-      hit_shapes(walk, origin, bounce, hit.valid ? hit.t : std::numeric_limits<float>::infinity());
-    if (!hit.valid) {
-      if (environment_counts_ && emitter_counts) {
-        const float other = sample_extended_lights_ ? environment_.pdf(bounce.wi) / bounce.pdf : 0.0f;
-        classes_.add(k - 1, LightEnd::environment,
-                     walk.throughput.emitted(tracer_.scene().environment.lookup(bounce.wi) / (1.0f + other)),
-                     sums);
-      }
-      break;
-    }
-    current = tracer_.surface(hit, bounce.wi);
-    const float triangle_pdf = area_.triangle_pdf(hit.triangle);
-    if (emitter_counts && triangle_pdf > 0.0f) {
-      const float cosine = std::abs(glm::dot(current.geometric_normal, bounce.wi));
-      const float other =
-          sample_extended_lights_ ? directional_pdf(triangle_pdf, hit.t * hit.t, cosine) / bounce.pdf : 0.0f;
-      classes_.add(k - 1, LightEnd::area, walk.throughput.emitted(current.emission * (1.0f / (1.0f + other))),
-                   sums);
-    }
-    walk.x = {&current, allowed_brdf(current, paths_, false), -bounce.wi};
-    const float connections = k == 1 ? static_cast<float>(connections_at_eye) / x1.paths : 1.0f;
-    if (counts)
-      classes_.add(
-          k, LightEnd::local,
-          walk.throughput.reflect(next_event(walk.x, hit.t, bounce.pdf, connections, choice.y, rays)), sums);
-  }
+  Walk walk{x1, {}, 1, random, sums, rays};
+  for (; walk.vertex <= last; ++walk.vertex)
+    if (!step(walk, light)) return;
 }
 
 }  // namespace relight

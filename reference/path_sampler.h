@@ -54,6 +54,12 @@ class PathSampler {
                        int64_t& rays) const;
   Reflected from_light(const EyeVertex& y, size_t light, float distance, float density, float connections,
                        int64_t& rays) const;
+  bool step(Walk& walk, const LightVertex& light) const;
+  void next_event_to_extended(Walk& walk, float u_choice) const;
+  bool survives(Walk& walk, float u) const;
+  BrdfSample scatter(Walk& walk, float u_lobe) const;
+  Hit follow(Walk& walk, const BrdfSample& bounce) const;
+  void hit_emitter(Walk& walk, const Hit& hit, const BrdfSample& bounce) const;
   void next_event_to_area(Walk& walk, float u_choice, const glm::vec2& u) const;
   void next_event_to_environment(Walk& walk, const glm::vec2& u) const;
   void hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSample& bounce, float t_far) const;

@@ -46,6 +46,11 @@ void validate_rectangle(const Light& light, const std::string& who) {
 }  // namespace
 
 shader::LightParams Light::params() const {
+  if (!is_delta(type))
+    fail(
+        "light '{}': a light with an area (rectangle, disc) has no form for shaders; only path tracing knows "
+        "it",
+        name);
   // In double: near 0 degrees the cosine of a float angle keeps only half of its digits.
   const auto cosine = [](float degrees) {
     return static_cast<float>(std::cos(glm::radians(double(degrees))));

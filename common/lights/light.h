@@ -28,8 +28,8 @@ struct Light {
   std::string name;
   LightType type = LightType::omni;
   glm::vec3 position{0.0f};  // centre of a rectangle or disc; unused for directional
-  glm::vec3 direction{0, -1,
-                      0};  // unit: where a spot, directional, rectangle or disc shines; unused for omni
+  // Unit: where a spot, directional, rectangle or disc shines; unused for omni.
+  glm::vec3 direction{0, -1, 0};
   glm::vec3 edge_u{0.0f}, edge_v{0.0f};  // rectangle: from its centre to the middles of two sides
   float radius = 0.0f;                   // disc
   glm::vec3 intensity{1.0f};             // on the axis for a spot
@@ -37,7 +37,8 @@ struct Light {
   float outer_degrees = 25.0f;           // spot: half-angle where the intensity reaches zero; > inner
   bool casts_shadows = true;
 
-  // The form the shading code (C++ and GLSL) reads; delta lights only.
+  // The form the shading code (C++ and GLSL) reads. Throws Error for lights with an area: a shader would take
+  // a rectangle's radiance for the irradiance of parallel light.
   shader::LightParams params() const;
 };
 

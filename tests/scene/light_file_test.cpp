@@ -181,6 +181,17 @@ TEST_P(BadLights, AreRefusedNamingFileLineAndField) {
   EXPECT_TRUE(by_value || message.find("evening.toml:") != std::string::npos) << message;
 }
 
+// Methods that shade with light_models.glsl must not take a rectangle for a directional light. Red if
+// (tried): params() gives it a form.
+TEST(LightParams, RefuseLightsWithAnArea) {
+  for (const LightType type : {LightType::rectangle, LightType::disc}) {
+    Light light;
+    light.name = "panel";
+    light.type = type;
+    EXPECT_NE(error_message([&] { light.params(); }).find("panel"), std::string::npos);
+  }
+}
+
 // Made by code, not by files. Red if (tried): skewed edges pass, which rays and drawn points take for
 // different shapes.
 TEST(LightingStates, RefuseRectanglesThatAreNone) {
