@@ -36,9 +36,9 @@ glm::vec3 vector_of(const Json& json) {
   return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
 }
 
-Json result_json(const PictureStatistics& picture, int samples_per_pixel) {
+Json result_json(const PictureStatistics& picture) {
   return {{"relative_standard_error", picture.relative_standard_error()},
-          {"samples_per_pixel", samples_per_pixel},
+          {"samples_per_pixel", picture.samples_per_pixel},
           {"batches", picture.batches},
           {"rays", picture.rays},
           {"non_finite", picture.non_finite},
@@ -92,6 +92,7 @@ PictureStatistics picture_of(const std::filesystem::path& folder, const Json& re
   picture.whole.mean = Image(1, 1, vector_of(result.at("mean_of_indirect")));
   picture.whole.variance = Image(1, 1, vector_of(result.at("variance_of_that_mean")));
   picture.batches = result.at("batches").get<int>();
+  picture.samples_per_pixel = result.at("samples_per_pixel").get<int>();
   picture.non_finite = result.at("non_finite").get<int64_t>();
   picture.fireflies = result.at("fireflies").get<int64_t>();
   picture.rays = result.at("rays").get<int64_t>();
@@ -109,9 +110,8 @@ void save_stored(const std::filesystem::path& folder, const PictureStatistics& p
   write_exr(folder / "indirect.exr", rounded(picture.pixels.mean, mean_mantissa));
   write_exr(folder / "variance.exr", rounded(picture.pixels.variance, variance_mantissa));
   write_exr(folder / "tile_variance.exr", rounded(picture.tiles.variance, variance_mantissa));
-  const int samples = picture.batches * identity.value("samples_per_batch", 0);
   const Json json = {
-      {"identity", identity}, {"result", result_json(picture, samples)}, {"provenance", provenance_json()}};
+      {"identity", identity}, {"result", result_json(picture)}, {"provenance", provenance_json()}};
   write_text_atomically(folder / "reference.json", json.dump(2) + "\n");
 }
 

@@ -30,7 +30,7 @@ const std::vector<StoredReference>& stored_references() {
       {"cornell_spot", "cornell", "spot", full_solution(), 96},
       {"cornell_omni", "cornell", "omni", full_solution(), 96},
       {"cornell_near", "cornell", "near", full_solution(), 96},
-      {"cornell_spot_one_bounce", "cornell", "spot", one_diffuse_bounce(), 64},
+      {"cornell_spot_one_bounce", "cornell", "spot", one_diffuse_bounce(), 16},
       {"colonnade_spot", "colonnade", "spot", full_solution(), 96},
       {"colonnade_spot2", "colonnade", "spot2", full_solution(), 96},
       {"colonnade_omni", "colonnade", "omni", full_solution(), 96},

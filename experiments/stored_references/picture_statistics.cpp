@@ -105,6 +105,7 @@ PictureStatistics render_statistics(const RayTracer& tracer, const DeepFrameBuff
   result.whole = whole.estimate();
   result.fireflies = pixels.fireflies();
   result.batches = plan.batches;
+  result.samples_per_pixel = plan.batches * plan.samples_per_batch;
   return result;
 }
 

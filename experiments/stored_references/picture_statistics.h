@@ -19,11 +19,12 @@ struct Estimate {
 };
 
 struct PictureStatistics {
-  Image direct;     // exact
-  Estimate pixels;  // indirect light, WxH
-  Estimate tiles;   // of the means of 4x4 pixels
-  Estimate whole;   // of the mean of all pixels, 1x1
-  int batches = 0;  // independent renders: variances have batches - 1 degrees of freedom
+  Image direct;               // exact
+  Estimate pixels;            // indirect light, WxH
+  Estimate tiles;             // of the means of 4x4 pixels
+  Estimate whole;             // of the mean of all pixels, 1x1
+  int batches = 0;            // independent renders: variances have batches - 1 degrees of freedom
+  int samples_per_pixel = 0;  // of all batches together
   int64_t non_finite = 0, fireflies = 0, rays = 0;  // see PathTracerResult
   double seconds = 0.0;
 
