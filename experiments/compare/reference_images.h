@@ -9,6 +9,9 @@
 
 namespace relight {
 
+// Raise it whenever the path tracer's estimate changes for the same settings.
+inline constexpr int reference_version = 2;
+
 struct ReferenceImages {
   PathTracerSettings settings;
   PathTracerResult result;

@@ -1,0 +1,98 @@
+#include "experiments/stored_references/identity.h"
+
+#include <fmt/format.h>
+
+#include "experiments/compare/reference_images.h"
+#include "experiments/options/parse.h"
+
+namespace relight {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string words(const glm::vec3& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
+
+const char* type_name(LightType type) {
+  switch (type) {
+    case LightType::omni:
+      return "omni";
+    case LightType::spot:
+      return "spot";
+    case LightType::directional:
+      return "directional";
+    case LightType::rectangle:
+      return "rectangle";
+    case LightType::disc:
+      return "disc";
+  }
+  return "unknown";
+}
+
+std::string words(const Light& light) {
+  std::string text = fmt::format("{} position {} direction {} intensity {}", type_name(light.type),
+                                 words(light.position), words(light.direction), words(light.intensity));
+  if (light.type == LightType::spot)
+    text += fmt::format(" inner {} outer {} degrees", light.inner_degrees, light.outer_degrees);
+  if (light.type == LightType::rectangle)
+    text += fmt::format(" edges {} {}", words(light.edge_u), words(light.edge_v));
+  if (light.type == LightType::disc) text += fmt::format(" radius {}", light.radius);
+  return text + (light.casts_shadows ? "" : " without shadows");
+}
+
+Json lights_json(const LightingState& lighting) {
+  Json lights = Json::array();
+  for (const Light& light : lighting.lights) lights.push_back(words(light));
+  return lights;
+}
+
+}  // namespace
+
+SessionOptions stored_session_options(const StoredReference& reference) {
+  SessionOptions options;
+  options.scene = reference.scene;
+  options.lights = reference.lights;
+  options.view = stored_view;
+  options.no_cache = true;
+  return options;
+}
+
+BatchPlan stored_plan(const StoredReference& reference) {
+  BatchPlan plan;
+  plan.paths = reference.paths;
+  plan.batches = stored_batches;
+  plan.samples_per_batch = reference.samples_per_batch;
+  plan.seed = stored_seed;
+  return plan;
+}
+
+Json picture_identity(const StoredReference& reference, const Session& session) {
+  const BatchPlan plan = stored_plan(reference);
+  const Camera& camera = session.buffer().view.camera;
+  return {
+      {"scene", reference.scene},
+      {"scene_hash", fmt::format("{:016x}", session.scene().content_hash)},
+      {"lights", reference.lights},
+      {"lights_in_words", lights_json(session.lighting())},
+      {"camera", fmt::format("eye {} target {} up {} vertical field of view {} degrees", words(camera.eye),
+                             words(camera.target), words(camera.up), camera.fov_y_degrees)},
+      {"view", stored_view},
+      {"light_paths", plan.paths.to_string()},
+      {"estimator", to_string(plan.estimator)},
+      {"batches", plan.batches},
+      {"samples_per_batch", plan.samples_per_batch},
+      {"seed", plan.seed},
+      {"reference_version", reference_version}};
+}
+
+std::vector<std::string> stale_fields(const Json& stored, const Json& now) {
+  std::vector<std::string> lines;
+  for (const auto& [field, value] : now.items()) {
+    const Json before = stored.is_object() ? stored.value(field, Json()) : Json();
+    if (before != value)
+      lines.push_back(fmt::format("{}: stored {}, now {}", field, before.dump(), value.dump()));
+  }
+  return lines;
+}
+
+}  // namespace relight
