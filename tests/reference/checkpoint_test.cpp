@@ -51,7 +51,7 @@ PathTracerSettings long_run() {
 
 struct Killed {};
 
-// Red if (tried): planning is done anew after a resume, the number of the next batch or a part of the state
+// Red if: planning is done anew after a resume, the number of the next batch or a part of the state
 // is not kept.
 TEST(Checkpoint, ResumedRunGivesTheBitsOfAnUninterruptedOne) {
   const TemporaryFolder folder;
@@ -77,7 +77,7 @@ TEST(Checkpoint, ResumedRunGivesTheBitsOfAnUninterruptedOne) {
 }
 
 // The number of samples changes nothing but when to stop, as long as a batch has as many and both runs plan.
-// Red if (tried): the state is that of the last batch but one, or a finished one is rendered anew.
+// Red if: the state is that of the last batch but one, or a finished one is rendered anew.
 TEST(Checkpoint, AddingSamplesEqualsOneLongerRun) {
   const TemporaryFolder folder;
   const Rendering render(full_scene(), 8, 6);
@@ -94,7 +94,7 @@ TEST(Checkpoint, AddingSamplesEqualsOneLongerRun) {
   EXPECT_EQ(render(local, s).batches, 8) << "a longer state is not cut";
 }
 
-// Red if (tried): time of earlier sessions is forgotten, so that a limit starts anew.
+// Red if: time of earlier sessions is forgotten, so that a limit starts anew.
 TEST(Checkpoint, KeepsTheTimeSpent) {
   const TemporaryFolder folder;
   const Rendering render(full_scene(), 8, 6);
@@ -120,7 +120,7 @@ PathTracerState small_state() {
   return state;
 }
 
-// Red if (tried): a field is left out of the file.
+// Red if: a field is left out of the file.
 TEST(Checkpoint, FileHoldsTheWholeState) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "made" / "on the way" / "state";
@@ -135,7 +135,7 @@ TEST(Checkpoint, FileHoldsTheWholeState) {
   EXPECT_FALSE(load_state(folder.path() / "missing", "").has_value());
 }
 
-// Red if (tried): the key is not compared.
+// Red if: the key is not compared.
 TEST(Checkpoint, OfAnotherRunIsRefusedAndKept) {
   const TemporaryFolder folder;
   const Rendering render(full_scene(), 8, 6);
@@ -150,7 +150,7 @@ TEST(Checkpoint, OfAnotherRunIsRefusedAndKept) {
   EXPECT_EQ(read_bytes(s.checkpoint.file), before);
 }
 
-// A key that forgot the size of the picture or the classes must not crash. Red if (tried): sizes are not
+// A key that forgot the size of the picture or the classes must not crash. Red if: sizes are not
 // compared.
 TEST(Checkpoint, OfAnotherSizeIsRefused) {
   const TemporaryFolder folder;
@@ -163,7 +163,7 @@ TEST(Checkpoint, OfAnotherSizeIsRefused) {
   EXPECT_NE(error_message([&] { same(local, s); }).find("state.rt"), std::string::npos);
 }
 
-// Every truncation, every single changed byte, and bytes too many. Red if (tried): the checksum is not
+// Every truncation, every single changed byte, and bytes too many. Red if: the checksum is not
 // compared, or what follows it is not looked at.
 TEST(Checkpoint, DamagedFilesAreRefusedNamingThem) {
   const TemporaryFolder folder;
@@ -186,7 +186,7 @@ TEST(Checkpoint, DamagedFilesAreRefusedNamingThem) {
   EXPECT_TRUE(load_state(file, "key").has_value());
 }
 
-// Red if (tried): the version is not looked at.
+// Red if: the version is not looked at.
 TEST(Checkpoint, OfAnotherVersionIsRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "state.rt";
@@ -201,7 +201,7 @@ TEST(Checkpoint, OfAnotherVersionIsRefused) {
 }
 
 // A process killed while it wrote, or before it renamed, leaves a temporary file beside the last good state.
-// Red if (tried): the state is written in place.
+// Red if: the state is written in place.
 TEST(Checkpoint, KilledWhileWritingLosesNothing) {
   const TemporaryFolder folder;
   const Rendering render(full_scene(), 8, 6);

@@ -30,7 +30,7 @@ Rendering floor_with_box() {
   return Rendering(std::move(scene), 64, 48);
 }
 
-// albedo / pi x irradiance x cosine; the box casts its shadow along the light. Red if (tried): the
+// albedo / pi x irradiance x cosine; the box casts its shadow along the light. Red if: the
 // direction's sign or length enters, the cosine is lost, or the shadow ray goes the other way.
 TEST(DirectionalLight, DirectLightIsTheCosineLawWithParallelShadows) {
   const Rendering render = floor_with_box();
@@ -66,7 +66,7 @@ TEST(DirectionalLight, DirectLightIsTheCosineLawWithParallelShadows) {
   EXPECT_GT(dark, 20);
 }
 
-// Red if (tried): the shadow ray is too short for a scene far from the origin.
+// Red if: the shadow ray is too short for a scene far from the origin.
 TEST(DirectionalLight, IsTheSameInAMovedAndScaledRoom) {
   const PathTracerSettings s = settings(Estimator::next_event, 16, 2);
   const LightingState lights = lighting({directional(slant)});
@@ -76,7 +76,7 @@ TEST(DirectionalLight, IsTheSameInAMovedAndScaledRoom) {
   EXPECT_NEAR(mean_of(a).x, mean_of(b).x, 0.01 * mean_of(a).x);
 }
 
-// Shadow-free lights reach everything. Red if (tried): casts_shadows is ignored.
+// Shadow-free lights reach everything. Red if: casts_shadows is ignored.
 TEST(DirectionalLight, PassesThroughSurfacesWithoutShadows) {
   const Rendering render = floor_with_box();
   Light light = directional({0, -1, 0});
@@ -103,7 +103,7 @@ void expect_equal_light(const Rendering& render, const LightingState& a,
   EXPECT_LT(error, 0.04 * sum) << "too noisy to tell";
 }
 
-// One and two bounces. Red if (tried): the light-vertex estimator starts rays from the place of a directional
+// One and two bounces. Red if: the light-vertex estimator starts rays from the place of a directional
 // light, or weights next-event estimation as if it did.
 TEST(DirectionalLight, IndirectLightIsThatOfAFarLamp) {
   const Rendering render(room(), 12, 9);
@@ -113,7 +113,7 @@ TEST(DirectionalLight, IndirectLightIsThatOfAFarLamp) {
 }
 
 // Six lights, so that next-event estimation chooses one by power, and the light-vertex estimator starts at
-// the three that have a place. Red if (tried): directional lights are left out of the choice, or their
+// the three that have a place. Red if: directional lights are left out of the choice, or their
 // probability is not divided by, or light vertices are chosen among all six.
 TEST(DirectionalLight, MixesWithManyOtherLights) {
   const Rendering render(room(), 12, 9);

@@ -22,7 +22,7 @@ void expect_near(const glm::vec3& a, const glm::vec3& b) {
   EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z;
 }
 
-// Red if (tried): the strength is read from another key, the direction is kept as long as it was written, or
+// Red if: the strength is read from another key, the direction is kept as long as it was written, or
 // a directional light wants a position.
 TEST(LightFile, ReadsDirectionalLights) {
   const Light light = load_one("type = \"directional\"\nirradiance = [3, 2, 1]\ndirection = [0, -2, 2]\n");
@@ -36,7 +36,7 @@ TEST(LightFile, ReadsDirectionalLights) {
           .casts_shadows);
 }
 
-// Half edges: from the centre to the middles of two sides; the width is horizontal. Red if (tried): width and
+// Half edges: from the centre to the middles of two sides; the width is horizontal. Red if: width and
 // height are swapped, whole instead of half, or `up` is ignored.
 TEST(LightFile, ReadsRectangles) {
   const std::string common =
@@ -69,7 +69,7 @@ TEST(LightFile, ReadsRectangles) {
   EXPECT_NEAR(any.edge_u.y, 0.0f, 1e-6f) << "the width is horizontal";
 }
 
-// Red if (tried): the radius is taken for a diameter, or the target for a direction.
+// Red if: the radius is taken for a diameter, or the target for a direction.
 TEST(LightFile, ReadsDiscs) {
   const Light light = load_one(
       "type = \"disc\"\nradiance = [1, 0, 2]\nposition = [0, 4, 0]\ntarget = [3, 0, 0]\nradius = 0.5\n");
@@ -79,7 +79,7 @@ TEST(LightFile, ReadsDiscs) {
   expect_near(light.direction, {0.6f, -0.8f, 0.0f});
 }
 
-// Red if (tried): lights are read in another order, or the name of the file is not that of the lighting.
+// Red if: lights are read in another order, or the name of the file is not that of the lighting.
 TEST(LightFile, ReadsAllLightsInTheirOrder) {
   const std::string omni = "[[light]]\ntype = \"omni\"\nposition = [0, 1, 0]\nintensity = 1\n";
   const LightingState lights =
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
 #undef RECTANGLE
 #undef DISC
 
-// Red if (tried): a range is not checked, a key of another type of light passes, or a required one has a
+// Red if: a range is not checked, a key of another type of light passes, or a required one has a
 // default.
 TEST_P(BadLights, AreRefusedNamingFileLineAndField) {
   const std::string message = error_message([] { load(std::string("[[light]]\n") + GetParam().text); });
@@ -181,8 +181,8 @@ TEST_P(BadLights, AreRefusedNamingFileLineAndField) {
   EXPECT_TRUE(by_value || message.find("evening.toml:") != std::string::npos) << message;
 }
 
-// Methods that shade with light_models.glsl must not take a rectangle for a directional light. Red if
-// (tried): params() gives it a form.
+// Methods that shade with light_models.glsl must not take a rectangle for a directional light. Red if:
+// params() gives it a form.
 TEST(LightParams, RefuseLightsWithAnArea) {
   for (const LightType type : {LightType::rectangle, LightType::disc}) {
     Light light;
@@ -192,7 +192,7 @@ TEST(LightParams, RefuseLightsWithAnArea) {
   }
 }
 
-// Made by code, not by files. Red if (tried): skewed edges pass, which rays and drawn points take for
+// Made by code, not by files. Red if: skewed edges pass, which rays and drawn points take for
 // different shapes.
 TEST(LightingStates, RefuseRectanglesThatAreNone) {
   const auto lights = [](const glm::vec3& direction, const glm::vec3& u, const glm::vec3& v) {
