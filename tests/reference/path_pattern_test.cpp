@@ -30,7 +30,7 @@ std::set<std::string> names(const std::string& pattern,
 
 using Names = std::set<std::string>;
 
-// Red if (tried): D and G are swapped, the eye's lobe is taken for an interior one, or an end is misread.
+// Red if (tried in part): D and G are swapped, the eye's lobe is taken for an interior one, or an end is misread.
 TEST(PathPattern, SelectsTheClassesThatItDescribes) {
   EXPECT_EQ(names("E L"), (Names{"seen.area", "seen.environment"}));
   EXPECT_EQ(names("E Le"), Names{"seen.environment"});
@@ -49,7 +49,7 @@ TEST(PathPattern, SelectsTheClassesThatItDescribes) {
   EXPECT_EQ(names("E (D|G)* L").size(), all_classes().size());
 }
 
-// Red if (tried): an optional or counted repetition is off by one, or S is not G.
+// Red if (tried in part): an optional or counted repetition is off by one, or S is not G.
 TEST(PathPattern, ReadsWaysOfWritingTheSame) {
   const auto same = [](const std::string& a, const std::string& b) { EXPECT_EQ(names(a), names(b)) << a; };
   same("EDDL", " E  D D\tL ");
@@ -66,7 +66,7 @@ TEST(PathPattern, ReadsWaysOfWritingTheSame) {
   same("E (D|) D L", "E D? D L");
 }
 
-// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried):
+// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried in part):
 // only the next few lengths are looked at.
 TEST(PathPattern, DecidesOpenClassesForAllLengths) {
   EXPECT_EQ(names("E D{0,4} L").count("b4+.D.D.area"), 0u);
@@ -81,7 +81,7 @@ TEST(PathPattern, DecidesOpenClassesForAllLengths) {
   }
 }
 
-// Red if (tried): a class that is cut is taken or left without a word.
+// Red if (tried in part): a class that is cut is taken or left without a word.
 TEST(PathPattern, RefusesToCutAClass) {
   for (const char* pattern : {"E D D G L", "E D G D L", "E D .* G L", "E D G G L"}) {
     const std::string message = error_message([&] { names(pattern, all_classes(3, 3)); });
@@ -91,7 +91,7 @@ TEST(PathPattern, RefusesToCutAClass) {
   EXPECT_EQ(names("E D (D G|G D|G G) Lp", all_classes(3, 3)), Names{"b2.D.some_G.local"}) << "not cut";
 }
 
-// Red if (tried): the caret stands a column beside the character, or the pattern isn't repeated.
+// Red if (tried in part): the caret stands a column beside the character, or the pattern isn't repeated.
 TEST(PathPattern, PointsAtTheCharacterThatIsWrong) {
   const auto expect_caret = [](const std::string& pattern, size_t column, const char* why) {
     const std::string message = error_message([&] { names(pattern); });
@@ -116,7 +116,7 @@ TEST(PathPattern, PointsAtTheCharacterThatIsWrong) {
   expect_caret("E * L", 2, "expected a vertex");
 }
 
-// Red if (tried): repetitions of repetitions fill the memory.
+// Red if (tried in part): repetitions of repetitions fill the memory.
 TEST(PathPattern, RefusesPatternsThatAreTooLarge) {
   for (const char* pattern : {"E ((D{1000}){1000}){1000} L", "E .* G .{40} L"}) {
     const std::string message = error_message([&] { names(pattern); });
