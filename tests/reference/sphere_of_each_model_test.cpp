@@ -74,7 +74,7 @@ void expect_sphere(const Material& material) {
 }
 
 // Red if: the density is that of another model, the lobe's share of samples is left out of it, a lobe is not
-// counted at the eye, or light from below the horizon counts.
+// counted at the eye, or light from below the horizon counts. Tried: the glossy part x 1.05.
 TEST(SphereOfEachModel, Lambert) {
   Material material;
   material.diffuse = glm::vec3(0.7f);
