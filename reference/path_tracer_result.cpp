@@ -53,7 +53,8 @@ void write_indirect(const PathTracerState& state, bool with_variance, PathTracer
     const PixelStatistics& s = state.pixels[i];
     result.indirect.pixels[i] = glm::vec3(s.mean);
     if (with_variance) result.indirect_variance.pixels[i] = glm::vec3(s.variance(state.batches));
-    result.fireflies += s.is_firefly(state.batches);
+    // Batches of one sequence are single samples: any of them may dominate.
+    if (with_variance) result.fireflies += s.is_firefly(state.batches);
   }
 }
 
