@@ -149,10 +149,11 @@ void warn_of_far_origin(Scene& scene) {
   const double blur = 32.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
                       std::max({far.x, far.y, far.z}) / size;
   if (size > 0.0 && blur > 1e-3)
-    scene.repairs.warnings.push_back(fmt::format(
-        "{}: lies {:.0f} times its own size from the origin, where single precision blurs it by {:.2g} of its size: "
-        "expect false shadows and leaks; move it towards the origin",
-        scene.name, std::max({far.x, far.y, far.z}) / size, blur));
+    scene.repairs.warnings.push_back(
+        fmt::format("{}: lies {:.0f} times its own size from the origin, where single precision blurs it by "
+                    "{:.2g} of its size: "
+                    "expect false shadows and leaks; move it towards the origin",
+                    scene.name, std::max({far.x, far.y, far.z}) / size, blur));
 }
 
 void repair_scene(Scene& scene) {

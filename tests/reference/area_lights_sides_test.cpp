@@ -16,8 +16,8 @@ check::Reading read(Scene scene, const LightingState& lights, const glm::dvec3& 
 
 glm::dvec3 reflected(double form_factor) { return floor_albedo * form_factor * glm::dvec3(shine); }
 
-// Red if (tried in part): the light's cosine is taken without its sign, by points drawn on it or by rays that meet
-// it.
+// Red if (tried in part): the light's cosine is taken without its sign, by points drawn on it or by rays that
+// meet it.
 TEST(AreaLights, RectanglesAndDiscsShineFromOneSide) {
   EXPECT_EQ(read(floor_scene(), lighting({rectangle_light(up, shine)})).mean.x, 0.0);
   EXPECT_GT(read(floor_scene(), lighting({rectangle_light(down, shine)})).mean.x, 0.0);
@@ -63,8 +63,8 @@ TEST(AreaLights, RectanglesAndDiscsBlockNothing) {
   expect_reads(read(floor_scene(), both), reflected(factor), 1e-3, 0.02);
 }
 
-// The camera looks straight into the light. Red if (tried in part): the camera sees shapes, or shapes shadow delta
-// lights.
+// The camera looks straight into the light. Red if (tried in part): the camera sees shapes, or shapes shadow
+// delta lights.
 TEST(AreaLights, ShapesAreNotSeenByTheCamera) {
   Scene scene = floor_scene();
   scene.camera = {{0.1f, 2.0f, 0.2f}, {0.1f, 0.0f, 0.2f}, {0, 0, 1}, 20.0f};
@@ -80,8 +80,8 @@ TEST(AreaLights, ShapesAreNotSeenByTheCamera) {
 }
 
 // A light built into a black ceiling, in the plane of the surface itself; tilted, so that its plane is not
-// exact in float. Red if (tried in part): the shape is not lifted off the surface: rounding then hides half of its
-// light.
+// exact in float. Red if (tried in part): the shape is not lifted off the surface: rounding then hides half
+// of its light.
 TEST(AreaLights, ShineWhenTheyAreFlushWithASurface) {
   const glm::dvec3 n = glm::normalize(glm::dvec3(0.1, -1.0, 0.23));
   const glm::dvec3 a = glm::normalize(glm::cross(n, glm::dvec3(0.2, 0.1, 1.0))), b = glm::cross(n, a);

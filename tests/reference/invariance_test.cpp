@@ -64,9 +64,9 @@ TEST(Invariance, MovingTheSceneAHundredDiagonalsStaysWithinItsBound) {
   EXPECT_NEAR(mean_of(moved.indirect).x / mean_of(original.indirect).x, 1.0, 0.005);
 }
 
-// Ten thousand diagonals away a float resolves 1/2000 of the room, and rays start a twenty-fifth of it off their
-// surface: no picture to trust, so the scene is reported (validation_test), but nothing breaks. Red if: rays
-// hit their own surface, which would turn whole walls black.
+// Ten thousand diagonals away a float resolves 1/2000 of the room, and rays start a twenty-fifth of it off
+// their surface: no picture to trust, so the scene is reported (validation_test), but nothing breaks. Red if:
+// rays hit their own surface, which would turn whole walls black.
 TEST(Invariance, TenThousandDiagonalsAwayThePictureIsBlurredButThere) {
   const Placed original = render_placed(1.0f, glm::vec3(0.0f));
   const Placed moved = render_placed(1.0f, glm::vec3(20000.0f, -20000.0f, 20000.0f));

@@ -37,8 +37,8 @@ void expect_same_picture(const Image& a, const Image& b) {
       ASSERT_NEAR(a.pixels[i][c], b.pixels[i][c], 1e-5f * (0.1f + b.pixels[i][c])) << i;
 }
 
-// Against all 2^4 words of lobes written out. Red if (tried in part): a lobe is lost after a glossy interior vertex,
-// the eye's lobe counts as interior, or a survivor of Russian roulette loses a class.
+// Against all 2^4 words of lobes written out. Red if (tried in part): a lobe is lost after a glossy interior
+// vertex, the eye's lobe counts as interior, or a survivor of Russian roulette loses a class.
 TEST(Throughput, HoldsEveryWordOfLobesInItsClass) {
   const Reflected f[4] = {{{0.2f, 0.3f, 0.4f}, {0.5f, 0.1f, 0.0f}},
                           {{0.7f, 0.6f, 0.5f}, {0.3f, 0.2f, 0.1f}},
@@ -66,8 +66,8 @@ TEST(Throughput, HoldsEveryWordOfLobesInItsClass) {
   }
 }
 
-// Red if (tried in part): light is left out of its class (connections at the eye), counted in two, or one lobe of a
-// vertex is lost; a class is missing for paths between the counted bounces and the least.
+// Red if (tried in part): light is left out of its class (connections at the eye), counted in two, or one
+// lobe of a vertex is lost; a class is missing for paths between the counted bounces and the least.
 TEST(PathClasses, AddUpToThePicture) {
   const Rendering render(full_scene(), 12, 9);
   struct Case {
@@ -124,7 +124,8 @@ TEST(PathClasses, OpenClassIsTheSumOfFinerOnes) {
   EXPECT_EQ(open, 12) << "three ends, two lobes at the eye, two kinds of interior";
 }
 
-// Red if (tried in part): the picture holds classes that the pattern leaves, or lacks exact light that it takes.
+// Red if (tried in part): the picture holds classes that the pattern leaves, or lacks exact light that it
+// takes.
 TEST(PathClasses, PictureOfAPatternIsTheSumOfItsLayers) {
   const Rendering render(full_scene(), 8, 6);
   for (const char* pattern :
@@ -184,8 +185,8 @@ TEST(PathClasses, CountSamplesThatAreNotFinite) {
   }
 }
 
-// Red if (tried in part): a pattern without classes, or one that selects nothing, gives a black picture without a
-// word.
+// Red if (tried in part): a pattern without classes, or one that selects nothing, gives a black picture
+// without a word.
 TEST(PathClasses, RefusePatternsThatCannotBeAnswered) {
   const Rendering render(room(), 8, 6);
   PathTracerSettings s = settings(Estimator::next_event, 4, 2);

@@ -30,7 +30,8 @@ std::set<std::string> names(const std::string& pattern,
 
 using Names = std::set<std::string>;
 
-// Red if (tried in part): D and G are swapped, the eye's lobe is taken for an interior one, or an end is misread.
+// Red if (tried in part): D and G are swapped, the eye's lobe is taken for an interior one, or an end is
+// misread.
 TEST(PathPattern, SelectsTheClassesThatItDescribes) {
   EXPECT_EQ(names("E L"), (Names{"seen.area", "seen.environment"}));
   EXPECT_EQ(names("E Le"), Names{"seen.environment"});
@@ -66,8 +67,8 @@ TEST(PathPattern, ReadsWaysOfWritingTheSame) {
   same("E (D|) D L", "E D? D L");
 }
 
-// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried in part):
-// only the next few lengths are looked at.
+// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried
+// in part): only the next few lengths are looked at.
 TEST(PathPattern, DecidesOpenClassesForAllLengths) {
   EXPECT_EQ(names("E D{0,4} L").count("b4+.D.D.area"), 0u);
   EXPECT_EQ(names("E (D D D|D D D D D)* D* L"), names("E D* L"));
