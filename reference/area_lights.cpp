@@ -5,14 +5,10 @@
 #include <numbers>
 
 #include "common/brdf/brdf.h"
+#include "common/image/luminance.h"
 
 namespace relight {
 namespace {
-
-double luminance(const glm::vec3& c) {
-  return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-         0.0722 * static_cast<double>(c.z);
-}
 
 // Uniform on the unit disc, without seam at the centre (Shirley and Chiu, "A Low Distortion Map Between Disk
 // and Square", JGT 1997).
@@ -32,17 +28,19 @@ AreaLights::AreaLights(const Scene& scene, const LightingState& lighting, bool t
     : scene_(scene) {
   if (triangles) add_triangles();
   add_shapes(lighting, lift);
-  for (Shape& shape : shapes_) shape.area_pdf = static_cast<float>(luminance(shape.light.intensity) / power_);
+  for (Shape& shape : shapes_)
+    shape.area_pdf = static_cast<float>(luminance(glm::dvec3(shape.light.intensity)) / power_);
   for (float& pdf : triangle_pdf_) pdf = static_cast<float>(static_cast<double>(pdf) / power_);
 }
 
 // Power is luminance x area x sides; the density on a triangle is then luminance x sides / total power.
 void AreaLights::add_triangles() {
-  const auto shines = [](const Material& m) { return luminance(m.emission) > 0.0; };
+  const auto shines = [](const Material& m) { return luminance(glm::dvec3(m.emission)) > 0.0; };
   if (std::none_of(scene_.materials.begin(), scene_.materials.end(), shines)) return;
   triangle_pdf_.assign(scene_.triangles.size(), 0.0f);
   for (size_t t = 0; t < scene_.triangles.size(); ++t) {
-    const double strength = 2.0 * luminance(scene_.materials[scene_.triangles[t].material].emission);
+    const double strength =
+        2.0 * luminance(glm::dvec3(scene_.materials[scene_.triangles[t].material].emission));
     const double area = 0.5 * glm::length(glm::dvec3(scene_.area_normal(t)));
     if (!(strength * area > 0.0)) continue;
     power_ += strength * area;
@@ -53,7 +51,7 @@ void AreaLights::add_triangles() {
 
 void AreaLights::add_shapes(const LightingState& lighting, float lift) {
   for (const Light& light : lighting.lights) {
-    if (is_delta(light.type) || !(luminance(light.intensity) > 0.0)) continue;
+    if (is_delta(light.type) || !(luminance(glm::dvec3(light.intensity)) > 0.0)) continue;
     Shape shape{light, light.edge_u, light.edge_v, 0.0f};
     shape.light.direction = glm::normalize(light.direction);
     shape.light.position += lift * shape.light.direction;
@@ -63,7 +61,7 @@ void AreaLights::add_shapes(const LightingState& lighting, float lift) {
     }
     const float parallelogram = glm::length(glm::cross(shape.u, shape.v));
     shape.area = parallelogram * (light.type == LightType::disc ? std::numbers::pi_v<float> : 4.0f);
-    power_ += luminance(light.intensity) * static_cast<double>(shape.area);
+    power_ += luminance(glm::dvec3(light.intensity)) * static_cast<double>(shape.area);
     sources_.push_back({power_, static_cast<uint32_t>(shapes_.size()), true});
     shapes_.push_back(shape);
   }

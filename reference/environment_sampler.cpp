@@ -4,15 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/image/luminance.h"
+
 namespace relight {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double luminance(const glm::vec3& c) {
-  return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-         0.0722 * static_cast<double>(c.z);
-}
 
 // Index of the interval of a cumulative distribution that holds u, and where in it u lies, in [0,1).
 size_t find(const double* cumulative, size_t count, double u, double& inside) {
@@ -33,10 +30,9 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) : environ
   if (environment.texels.empty() || environment.black()) return;
   const int w = environment.width, h = environment.height;
   const auto texel = [&](int x, int y) {
+    const size_t row = static_cast<size_t>(std::clamp(y, 0, h - 1)) * static_cast<size_t>(w);
     return luminance(
-        environment.radiance *
-        environment.texels[static_cast<size_t>(std::clamp(y, 0, h - 1)) * static_cast<size_t>(w) +
-                           static_cast<size_t>((x + w) % w)]);
+        glm::dvec3(environment.radiance * environment.texels[row + static_cast<size_t>((x + w) % w)]));
   };
   constexpr double tap[3] = {0.125, 0.75, 0.125};
   std::vector<double> rows, columns;

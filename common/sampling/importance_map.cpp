@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "common/image/luminance.h"
 #include "common/sampling/random.h"
 #include "common/scene/topology.h"
 
@@ -21,8 +22,6 @@ struct Particle {
   uint64_t bin, layer;
   float weight;  // 0: no hit
 };
-
-float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 int main_axis(const glm::vec3& n) {
   const glm::vec3 a = glm::abs(n);

@@ -75,11 +75,7 @@ void DirectLighting::shade(const LightingState& lighting, const std::vector<Requ
   bool first = true;
   for (const Light& light : lighting.lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
-    if (light.type != LightType::omni && light.type != LightType::spot)
-      fail(
-          "direct lighting: light '{}' is neither omni nor spot; other lights are in the reference only, so "
-          "far",
-          light.name);
+    require_omni_or_spot(light);
     impl_->shade_light(light, first, requests, log);
     first = false;
   }

@@ -72,6 +72,9 @@ class DirectLighting {
   std::unique_ptr<Impl> impl_;
 };
 
+// Throws Error for a light that is neither omni nor spot: both twins shade no others so far.
+void require_omni_or_spot(const Light& light);
+
 // The CPU twin, with traced shadows: the exact alternative and the oracle. Parallel, deterministic.
 std::vector<glm::vec3> shade_direct_cpu(const RayTracer& tracer, const std::vector<SurfaceSample>& samples,
                                         const glm::vec3& eye, const LightingState& lighting, Lobes lobes);

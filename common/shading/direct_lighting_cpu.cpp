@@ -1,6 +1,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "common/run/error.h"
 #include "common/shading/direct_lighting.h"
 #include "common/shading/traced_visibility.h"
 
@@ -23,11 +24,20 @@ glm::vec3 reflected(const SurfaceSample& s, const glm::vec3& eye, const shader::
 
 }  // namespace
 
+void require_omni_or_spot(const Light& light) {
+  if (light.type != LightType::omni && light.type != LightType::spot)
+    fail(
+        "direct lighting: light '{}' is neither omni nor spot; other lights are in the reference only, so "
+        "far",
+        light.name);
+}
+
 std::vector<glm::vec3> shade_direct_cpu(const RayTracer& tracer, const std::vector<SurfaceSample>& samples,
                                         const glm::vec3& eye, const LightingState& lighting, Lobes lobes) {
   std::vector<glm::vec3> radiance(samples.size(), glm::vec3(0.0f));
   for (const Light& light : lighting.lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
+    require_omni_or_spot(light);
     const shader::LightParams params = light.params();
     int64_t rays = 0;
     std::vector<uint32_t> visible;

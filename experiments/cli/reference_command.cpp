@@ -65,8 +65,10 @@ void add_reference_command(CLI::App& app, Action& action) {
       ->type_name("next_event|light_vertex")
       ->capture_default_str();
   command
-      ->add_option("--time", options->time_limit_s,
-                   "Stop after this many seconds (whole batches), 0: no limit")
+      ->add_option(
+          "--time", options->time_limit_s,
+          "Stop after this many seconds (whole batches), those of earlier sessions in --out included; 0: no "
+          "limit")
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the images")->required()->type_name("DIR");

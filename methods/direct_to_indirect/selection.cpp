@@ -7,6 +7,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "common/image/luminance.h"
 #include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/view_tiles.h"
 
@@ -37,7 +38,7 @@ void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
             [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
 }
 
-float row_factor(const SurfaceSample& s) { return glm::dot(s.diffuse, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+float row_factor(const SurfaceSample& s) { return luminance(s.diffuse); }
 
 float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& buffer,
                               const GatherCloud& cloud, const GatherHierarchy& hierarchy,

@@ -1,5 +1,6 @@
 #include "methods/direct_to_indirect/training_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -67,17 +68,22 @@ TrainingLights make_training_lights(const RayTracer& tracer, const DeepFrameBuff
                                     uint32_t count, uint64_t seed) {
   TrainingLights training;
   if (buffer.indirect.empty()) return training;
-  std::vector<std::vector<float>> lights;
-  for (uint64_t number = 0; lights.size() < count && number < uint64_t{attempts_a_light} * count; ++number) {
+  const size_t n = cloud.samples.size();
+  training.response.resize(n * count);
+  for (uint64_t number = 0; training.count < count && number < uint64_t{attempts_a_light} * count; ++number) {
     const std::optional<Light> light = random_light(tracer, buffer, seed, number);
     if (!light) continue;
     const std::vector<float> values = normalised_light(tracer, buffer, cloud, column_scale, *light);
-    if (!values.empty()) lights.push_back(wavelet::forward(values));
+    if (values.empty()) continue;
+    const std::vector<float> coefficients = wavelet::forward(values);
+    for (size_t k = 0; k < n; ++k) training.response[k * count + training.count] = coefficients[k];
+    ++training.count;
   }
-  training.count = static_cast<uint32_t>(lights.size());
-  training.response.resize(cloud.samples.size() * lights.size());
-  for (size_t k = 0; k < cloud.samples.size(); ++k)
-    for (size_t t = 0; t < lights.size(); ++t) training.response[k * lights.size() + t] = lights[t][k];
+  if (training.count < count)  // closes the gaps; each value moves towards the front
+    for (size_t k = 0; k < n; ++k)
+      std::copy_n(training.response.begin() + static_cast<std::ptrdiff_t>(k * count), training.count,
+                  training.response.begin() + static_cast<std::ptrdiff_t>(k * training.count));
+  training.response.resize(n * training.count);
   return training;
 }
 

@@ -161,6 +161,7 @@ TEST(ReferenceCommand, SurvivesBeingKilled) {
   ASSERT_EQ(run_program(common + folder / "killed" + " --samples 16").exit_code, 0);
   const ProgramResult killed = run_program(common + folder / "killed" + " --samples 65536", "ulimit -t 1; ");
   ASSERT_NE(killed.exit_code, 0);
+  ASSERT_EQ(killed.err.find("state.relight"), std::string::npos) << killed.err;  // refused instead of killed
   ASSERT_EQ(run_program(common + folder / "killed" + " --samples 32").exit_code, 0);
   ASSERT_EQ(run_program(common + folder / "whole" + " --samples 32").exit_code, 0);
   EXPECT_EQ(read_exr(folder / "killed/total.exr").pixels, read_exr(folder / "whole/total.exr").pixels);
