@@ -13,6 +13,7 @@ h3 { font-size:16px; margin:20px 0 8px; } h4 { font-size:14px; margin:0 0 6px; f
 header p, .note, small, figcaption { color:var(--soft); } header p { margin:0; }
 .note { font-size:13px; max-width:105ch; }
 table { border-collapse:collapse; width:100%; font-size:13.5px; }
+section { overflow-x:auto; }
 th, td { text-align:left; vertical-align:top; padding:7px 7px; border-bottom:1px solid var(--line); }
 thead th { background:var(--shade); font-weight:600; font-size:13px; vertical-align:bottom; }
 thead th.num { text-align:right; } tbody th { font-weight:600; }

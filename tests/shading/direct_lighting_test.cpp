@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/run/error.h"
 #include "tests/gpu/contexts.h"
 #include "tests/shading/shading_fixture.h"
 #include "tests/support/tiny_scenes.h"
@@ -243,6 +244,22 @@ TEST_F(Direct, SetsBeyondOneStorageBlockAreShadedWhole) {
   const auto few = shade(shading, samples_, eye, two_lights(), Lobes::diffuse, log);
   const auto all = shade(shading, many, eye, two_lights(), Lobes::diffuse, log);
   for (size_t i = 0; i < all.size(); ++i) ASSERT_EQ(all[i], few[i % samples_.size()]) << i;
+}
+
+// Red if either twin shades a directional light as if it had a place (tried: without the check in the CPU
+// twin).
+TEST(DirectLights, OtherThanOmniAndSpotAreRefusedByName) {
+  for (const LightType type : {LightType::directional, LightType::rectangle, LightType::disc}) {
+    Light light;
+    light.name = "odd";
+    light.type = type;
+    LightingState lighting;
+    lighting.lights = {light};
+    const Scene scene = tiny::room();
+    const RayTracer tracer(scene);
+    EXPECT_THROW(shade_direct_cpu(tracer, {}, glm::vec3(0.0f), lighting, Lobes::diffuse), Error);
+    EXPECT_THROW(require_omni_or_spot(light), Error);
+  }
 }
 
 // Red if an output that is too small is written past its end.
