@@ -1,0 +1,86 @@
+#include "methods/direct_to_indirect/precompute.h"
+
+#include "common/run/artefact_cache.h"
+#include "common/run/error.h"
+#include "common/sampling/gather_cloud.h"
+#include "methods/direct_to_indirect/column_scaling.h"
+#include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/training_lights.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+FinalGatherSettings final_gather_settings(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  FinalGatherSettings settings;
+  settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
+  settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
+  settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
+  settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
+  settings.shared_budget = knobs.choice("row_budget") == "shared";
+  settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
+  settings.seed = context.seed;
+  return settings;
+}
+
+Artefact precompute(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  Artefact artefact;
+  {
+    StageTimer timer(context.log, "gather_cloud");
+    const CloudSampling sampling =
+        knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
+    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, sampling, 1,
+                                                knobs.integer("gather_samples"), context.seed);
+  }
+  GatherHierarchy hierarchy;
+  {
+    StageTimer timer(context.log, "hierarchy");
+    order_gather_cloud(artefact.cloud, static_cast<float>(knobs.real("hierarchy_k")),
+                       context.scene.bounds.diagonal());
+    hierarchy = build_hierarchy(artefact.cloud);
+  }
+  const FinalGatherSettings settings = final_gather_settings(context);
+  std::vector<float> scale;
+  if (knobs.choice("column_scaling") == "mean_row") {
+    StageTimer timer(context.log, "column_scaling");
+    scale = mean_row_scaling(context.tracer, context.buffer, artefact.cloud, hierarchy, settings);
+  }
+  TrainingLights training;
+  const auto lights = static_cast<uint32_t>(knobs.integer("refit_lights"));
+  if (lights > 0) {
+    StageTimer timer(context.log, "training_lights");
+    training =
+        make_training_lights(context.tracer, context.buffer, artefact.cloud, scale, lights, context.seed);
+    context.log.bytes("training_lights", static_cast<int64_t>(training.response.size() * sizeof(float)));
+  }
+  StageTimer timer(context.log, "final_gather");
+  const FinalGatherInput input{context.tracer, context.buffer, artefact.cloud, hierarchy, scale, training};
+  artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
+  for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
+  return artefact;
+}
+
+}  // namespace
+
+Artefact load_or_precompute(const PrepareContext& context) {
+  const std::string kind = "direct_to_indirect.final_gather", key = cache_key(context);
+  {
+    StageTimer timer(context.log, "cache_load");
+    if (const auto bytes = context.cache.load(kind, key)) {
+      context.log.count("cache_hits", 1);
+      return from_bytes(*bytes);
+    }
+  }
+  Artefact artefact = precompute(context);
+  StageTimer timer(context.log, "cache_store");
+  try {
+    if (context.cache.enabled()) context.cache.store(kind, key, to_bytes(artefact));
+  } catch (const Error& error) {
+    context.log.warn(std::string("precomputed data was not cached: ") + error.what());
+  }
+  return artefact;
+}
+
+}  // namespace relight::direct_to_indirect
