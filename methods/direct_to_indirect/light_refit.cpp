@@ -122,8 +122,8 @@ void LightRefit::reduce(RefitRow& row, size_t lane) {
   row.entries.resize(left_.size());
 }
 
-// Places of the row's candidates among the tile's columns, their values and the ridge. Where no training light
-// excites any of them, the values stay and the largest are kept.
+// Places of the row's candidates among the tile's columns, their values and the ridge. Where no training
+// light excites any of them, the values stay and the largest are kept.
 void LightRefit::set_up(const RefitRow& row, size_t lane) {
   const size_t n = columns_.size();
   left_.clear(), prior_.clear(), stiffness_.clear(), right_.clear();
