@@ -30,8 +30,7 @@ struct Decision {
 // pixels     the least likely pixel and channel, corrected for their number (Sidak)
 // tiles      how many 4x4 tiles differ by more than two and three standard errors (binomial tails)
 // picture    the mean of all indirect light, by channel
-// brightness the mean over the tiles, each weighted by how well an error of brightness shows there
-// (brightness.h) A sample that is not finite makes pictures differ. Throws Error if sizes differ.
+// A sample that is not finite makes pictures differ. Throws Error if sizes differ.
 Decision compare_pictures(const PictureStatistics& fresh, const PictureStatistics& stored,
                           double level = false_alarm_level);
 

@@ -89,23 +89,6 @@ TEST(Decision, AMeanOffByTwoPercentIsNoticed) {
   EXPECT_TRUE(differs(compare_pictures(fresh, noisy_picture(2)), "picture"));
 }
 
-// Every tenth tile is so noisy that the picture's mean says nothing; the others know better. Red if: tiles
-// count alike, whatever their noise.
-TEST(Decision, AnErrorOfBrightnessIsNotDrownedByNoisyTiles) {
-  PictureStatistics fresh = noisy_picture(1), stored = noisy_picture(2);
-  for (PictureStatistics* p : {&fresh, &stored}) {
-    const size_t tiles = p->tiles.mean.pixels.size();
-    for (size_t i = 0; i < tiles; i += 10) p->tiles.variance.pixels[i] = glm::vec3(1.0f);
-    p->whole.variance.pixels[0] = glm::vec3(0.1f / static_cast<float>(tiles));
-  }
-  EXPECT_TRUE(compare_pictures(fresh, stored).same()) << compare_pictures(fresh, stored).to_string();
-  for (Estimate* e : {&fresh.tiles, &fresh.whole})
-    for (glm::vec3& p : e->mean.pixels) p *= 1.02f;
-  const Decision decision = compare_pictures(fresh, stored);
-  EXPECT_FALSE(differs(decision, "picture")) << decision.to_string();
-  EXPECT_TRUE(differs(decision, "brightness")) << decision.to_string();
-}
-
 // Red if: a change of direct light hides behind the tolerance for shadow edges.
 TEST(Decision, DirectLightMayDifferAtAFewPixelsOnly) {
   const PictureStatistics stored = noisy_picture(2);
