@@ -107,21 +107,45 @@ SplitRadiance LightConnector::unshadowed(const EyeVertex& x, const Throughput& t
   return at_y.reflect(split_brdf(y.brdf, y.surface.shading_normal, -w, y.to_light) * (y.irradiance * weight));
 }
 
-SplitRadiance LightConnector::connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
-                                      float count, int64_t& rays) const {
-  const SplitRadiance value = unshadowed(x, throughput, y, count);
-  if (black(value.sum())) return value;
-  ++rays;
-  const bool visible = tracer_.visible(x.surface->position, x.surface->geometric_normal, y.surface.position,
-                                       y.surface.geometric_normal);
-  return visible ? value : SplitRadiance{};
+// unshadowed() where all vertices are diffuse; the same bits.
+glm::vec3 LightConnector::unshadowed_diffuse(const EyeVertex& x, const glm::vec3& throughput,
+                                             const LightVertex& y, float count) const {
+  const Segment segment(x.surface->position, y.surface.position);
+  const glm::vec3& w = segment.direction;
+  const float cosine_y = -glm::dot(y.surface.geometric_normal, w);
+  const float cosine_x = glm::dot(x.surface->shading_normal, w);
+  if (!(cosine_y > 0.0f) || !(cosine_x > 0.0f) || !(glm::dot(x.surface->geometric_normal, w) > 0.0f))
+    return glm::vec3(0.0f);
+  const glm::vec3 reflected = shader::brdf_diffuse(x.brdf) * cosine_x;
+  if (black(reflected)) return reflected;
+  const float brdf = cosine_x * (1.0f / shader::rl_pi) * lights_.next_event_probability(y.light);
+  const float weight =
+      1.0f / (x.paths * brdf + count * directional_pdf(y.area_pdf, segment.squared, cosine_y));
+  return shader::brdf_diffuse(y.brdf) * (y.irradiance * weight) * (reflected * throughput);
+}
+
+void LightConnector::connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
+                             float count, int bounces, const PathClasses& classes, glm::vec3* sums,
+                             int64_t& rays) const {
+  const auto visible = [&] {
+    ++rays;
+    return tracer_.visible(x.surface->position, x.surface->geometric_normal, y.surface.position,
+                           y.surface.geometric_normal);
+  };
+  if (throughput.only_diffuse() && black(x.brdf.glossy) && black(y.brdf.glossy)) {
+    const glm::vec3 value = unshadowed_diffuse(x, throughput.diffuse(), y, count);
+    if (!black(value) && visible()) classes.add_diffuse(bounces, LightEnd::local, value, sums);
+  } else {
+    const SplitRadiance value = unshadowed(x, throughput, y, count);
+    if (!black(value.sum()) && visible()) classes.add(bounces, LightEnd::local, value, sums);
+  }
 }
 
 void LightConnector::connect(const EyeTile& tile, const LightVertex& y, float count,
                              const PathClasses& classes, glm::vec3* sums, int64_t& rays) const {
   const Connections diffuse = unshadowed_diffuse(tile, y, count);
   const uint32_t only_diffuse = black(y.brdf.glossy) ? tile.only_diffuse : 0u;
-  SplitRadiance values[16];
+  SplitRadiance values[16];  // of the others
   uint32_t active = diffuse.active & only_diffuse;
   for (uint32_t i = 0; i < 16; ++i) {
     if (!(((diffuse.facing & ~only_diffuse) >> i) & 1u)) continue;
@@ -134,8 +158,11 @@ void LightConnector::connect(const EyeTile& tile, const LightVertex& y, float co
   const uint32_t free = tracer_.visible16(tile.start, end, active);
   for (uint32_t i = 0; i < 16; ++i) {
     if (!((free >> i) & 1u)) continue;
-    if ((only_diffuse >> i) & 1u) values[i].value[0][0] = {diffuse.r[i], diffuse.g[i], diffuse.b[i]};
-    classes.add(1, LightEnd::local, values[i], sums + i * classes.count());
+    glm::vec3* one = sums + i * classes.count();
+    if ((only_diffuse >> i) & 1u)
+      classes.add_diffuse(1, LightEnd::local, {diffuse.r[i], diffuse.g[i], diffuse.b[i]}, one);
+    else
+      classes.add(1, LightEnd::local, values[i], one);
   }
 }
 

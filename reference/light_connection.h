@@ -29,9 +29,10 @@ class LightConnector {
   void trace(PathRandom random, std::span<LightVertex> vertices, int64_t& rays) const;
 
   // Light reaching the eye by x - y - light, where `throughput` reaches x, divided by the sum of densities
-  // m p_b + count p_l, where `count` light vertices are connected to x.
-  SplitRadiance connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y, float count,
-                        int64_t& rays) const;
+  // m p_b + count p_l, where `count` light vertices are connected to x. Added to sums[0, classes.count()) as
+  // light of `bounces` bounces.
+  void connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y, float count,
+               int bounces, const PathClasses& classes, glm::vec3* sums, int64_t& rays) const;
   // The same for the vertices of a tile, which the eye sees; adds to sums[i * classes.count()].
   void connect(const EyeTile& tile, const LightVertex& y, float count, const PathClasses& classes,
                glm::vec3* sums, int64_t& rays) const;
@@ -40,6 +41,8 @@ class LightConnector {
   struct Connections;
   LightVertex vertex(const LightRay& ray, const Hit& hit) const;
   Connections unshadowed_diffuse(const EyeTile& tile, const LightVertex& y, float count) const;
+  glm::vec3 unshadowed_diffuse(const EyeVertex& x, const glm::vec3& throughput, const LightVertex& y,
+                               float count) const;
   SplitRadiance unshadowed(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
                            float count) const;
   const RayTracer& tracer_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "reference/path_walk.h"
 
@@ -125,13 +126,18 @@ bool PathSampler::scatter(Walk& walk, bool roulette, int64_t& rays) const {
 // The second half of a step: the surface that was hit becomes x.
 void PathSampler::arrive(Walk& walk, int64_t& rays) const {
   const float connections = walk.vertex == 1 ? static_cast<float>(connections_at_eye) / walk.x.paths : 1.0f;
-  walk.behind = tracer_.surface(walk.hit, walk.bounce.wi);
+  // Made in place, because a copy stalls: see surface().
+  new (&walk.behind) SurfaceSample(tracer_.surface(walk.hit, walk.bounce.wi));
   hit_emitter(walk);
-  walk.x = {&walk.behind, allowed_brdf(walk.behind, paths_, false), -walk.bounce.wi};
+  walk.x.move_to(walk.behind, paths_, -walk.bounce.wi);
   if (!bounces_count(walk.vertex)) return;
   const Reflected reflected =
       next_event(walk.x, walk.hit.t, walk.bounce.pdf, connections, walk.u_light, rays);
-  classes_.add(walk.vertex, LightEnd::local, walk.throughput.reflect(reflected), walk.sums);
+  if (walk.throughput.only_diffuse() && black(reflected.glossy))
+    classes_.add_diffuse(walk.vertex, LightEnd::local, reflected.diffuse * walk.throughput.diffuse(),
+                         walk.sums);
+  else
+    classes_.add(walk.vertex, LightEnd::local, walk.throughput.reflect(reflected), walk.sums);
 }
 
 // From x_vertex of all paths that are alive to the next vertex.
@@ -142,8 +148,7 @@ void PathSampler::step(Wave& wave, int vertex, const LightVertex& light) const {
   });
   if (vertex > 1 && bounces_count(vertex) && light.surface.valid)
     wave.for_each([&](Walk& walk) {
-      classes_.add(vertex, LightEnd::local,
-                   connector_.connect(walk.x, walk.throughput, light, 1.0f, wave.rays), walk.sums);
+      connector_.connect(walk.x, walk.throughput, light, 1.0f, vertex, classes_, walk.sums, wave.rays);
       return true;
     });
   wave.for_each([&](Walk& walk) { return scatter(walk, vertex > bounces_before_roulette, wave.rays); });
