@@ -8,8 +8,9 @@ namespace {
 // code for all lobes. The view leaves tiles at its edges incomplete.
 //
 // Red if: a shortcut differs in anything but rounding from what it cuts short. Tried: the geometric normal
-// left out of the vectorised connections' test, their weight without the number of connections, the
-// irradiance left out of the connection of a path's vertex, throughput not advanced through diffuse vertices.
+// left out of the test of vectorised connections (seen in the number of rays only), the number of connections
+// left out of their weight, the throughput left out of the connection of a path's vertex, throughput not
+// advanced through diffuse vertices.
 TEST(DiffusePaths, GiveThePicturesThatTheCodeForAllLobesGives) {
   Scene scene = room();
   add_sphere(scene, {0.2f, -0.6f, 0.0f}, 0.35f, 8);  // its shading normals differ from the geometric ones
