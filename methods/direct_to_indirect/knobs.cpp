@@ -27,6 +27,8 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
+       "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
        "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
       {"support_exponent", real, precompute, "1", 0, 1, {}, "truncation",

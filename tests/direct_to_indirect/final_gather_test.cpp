@@ -88,6 +88,30 @@ TEST(FinalGather, KeepsTheCoefficientsWithTheLargestAreaWeightedSize) {
   }
 }
 
+// The fewest of the heaviest that hold 90 % of the sum of squares. Red if the fraction is taken of the sum of
+// sizes or the last one needed is left out (both tried).
+TEST(FinalGather, KeepsTheEnergyFractionThatIsAskedFor) {
+  GatherSetup s(tiny::room(), 8, 8, 1024, true);
+  FinalGatherSettings settings = exact_settings(1024);
+  const SparseRows all = s.final_gather(settings);
+  settings.energy_fraction = 0.9;
+  const SparseRows few = s.final_gather(settings);
+  for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {
+    double total = 0.0, held = 0.0, lightest = INFINITY, its_energy = 0.0;
+    for (const double c : dense_row(all, i)) total += c * c;
+    const std::vector<double> kept = dense_row(few, i);
+    for (uint32_t c = 0; c < 1024; ++c) {
+      held += kept[c] * kept[c];
+      const double weight = std::abs(kept[c]) * wavelet::support(c, 1024);
+      if (kept[c] != 0.0 && weight < lightest) lightest = weight, its_energy = kept[c] * kept[c];
+    }
+    EXPECT_GE(held, 0.9 * total * (1.0 - 1e-9));
+    if (total > 0.0) {
+      EXPECT_LT(held - its_energy, 0.9 * total);
+    }
+  }
+}
+
 // Links to clusters approximate the row; its sum (the share of the hemisphere that is covered) must stay
 // close, and fewer rays must be needed. Red if a link forgets the cluster's size.
 TEST(FinalGather, ClusterLinksKeepTheSumOfTheRow) {
