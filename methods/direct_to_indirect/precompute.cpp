@@ -6,6 +6,7 @@
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/training_lights.h"
 
 namespace relight::direct_to_indirect {
@@ -24,6 +25,18 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   return settings;
 }
 
+MultiBounceSettings multi_bounce_settings(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  MultiBounceSettings settings;
+  settings.kind = knobs.choice("multi_bounce") == "photons" ? BounceKind::photons : BounceKind::transfer;
+  settings.bounces = static_cast<int>(knobs.integer("bounces"));
+  settings.photons = knobs.integer("photons");
+  settings.neighbours = static_cast<int>(knobs.integer("photon_neighbours"));
+  settings.coefficients = static_cast<int>(knobs.integer("bounce_coefficients"));
+  settings.gather = final_gather_settings(context);
+  return settings;
+}
+
 Artefact precompute(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   Artefact artefact;
@@ -31,7 +44,8 @@ Artefact precompute(const PrepareContext& context) {
     StageTimer timer(context.log, "gather_cloud");
     const CloudSampling sampling =
         knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
-    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, sampling, 1,
+    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, sampling,
+                                                static_cast<int>(knobs.integer("bounces")),
                                                 knobs.integer("gather_samples"), context.seed);
   }
   GatherHierarchy hierarchy;
@@ -46,6 +60,12 @@ Artefact precompute(const PrepareContext& context) {
   if (knobs.choice("column_scaling") == "mean_row") {
     StageTimer timer(context.log, "column_scaling");
     scale = mean_row_scaling(context.tracer, context.buffer, artefact.cloud, hierarchy, settings);
+  }
+  const MultiBounceSettings bounce_settings = multi_bounce_settings(context);
+  if (bounce_settings.bounces > 1) {
+    StageTimer timer(context.log, "multi_bounce");
+    artefact.multi_bounce = compute_multi_bounce({context.tracer, artefact.cloud, hierarchy, scale},
+                                                 bounce_settings, context.progress, context.log);
   }
   TrainingLights training;
   const auto lights = static_cast<uint32_t>(knobs.integer("refit_lights"));
