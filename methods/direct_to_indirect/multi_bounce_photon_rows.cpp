@@ -10,7 +10,6 @@
 #include "common/wavelet/haar.h"
 #include "common/wavelet/sparse_haar.h"
 #include "methods/direct_to_indirect/multi_bounce_nearest.h"
-#include "methods/direct_to_indirect/selection.h"
 
 namespace relight::direct_to_indirect {
 namespace {
@@ -18,11 +17,17 @@ namespace {
 constexpr float least_normal_cosine = 0.5f;  // 60 degrees
 constexpr size_t rows_a_task = 64;           // neighbours in tree order search the same photons
 
+// A coefficient by its place in Worker::coefficients.
+struct Ranked {
+  float weight;
+  uint32_t at;
+};
+
 // Scratch and counts of one worker thread.
 struct Worker {
   std::vector<Neighbour> nearest;
   std::vector<wavelet::SparseValue> values, coefficients;
-  std::vector<Candidate> candidates;
+  std::vector<Ranked> ranked;
   int64_t before = 0, empty = 0;
 };
 
@@ -73,24 +78,29 @@ class RowBuilder {
     return in_.column_scale.empty() ? 1.0f : in_.column_scale[row] / in_.column_scale[column];
   }
 
+  // The rule of keep_largest() in selection.h, without a sort of all coefficients, of which a row has
+  // thousands.
   std::vector<SparseEntryRgb> select(Worker& worker) const {
-    std::sort(worker.coefficients.begin(), worker.coefficients.end(),
-              [](const auto& a, const auto& b) { return a.index < b.index; });
-    worker.candidates.clear();
-    for (const wavelet::SparseValue& c : worker.coefficients) {
-      const auto support = static_cast<float>(wavelet::support(c.index, columns()));
-      const float exponent = settings_.gather.support_exponent;
-      const float area = exponent == 1.0f ? support : std::pow(support, exponent);
-      worker.candidates.push_back({glm::length(c.value) * area, {c.index, 0.0f}});
-    }
-    keep_largest(worker.candidates, static_cast<size_t>(settings_.coefficients));
+    const std::vector<wavelet::SparseValue>& all = worker.coefficients;
+    worker.ranked.clear();
+    for (uint32_t k = 0; k < all.size(); ++k) worker.ranked.push_back({weight(all[k]), k});
+    const size_t limit = std::min(all.size(), static_cast<size_t>(settings_.coefficients));
+    std::nth_element(worker.ranked.begin(), worker.ranked.begin() + static_cast<std::ptrdiff_t>(limit),
+                     worker.ranked.end(), [&all](const Ranked& a, const Ranked& b) {
+                       return a.weight != b.weight ? a.weight > b.weight : all[a.at].index < all[b.at].index;
+                     });
     std::vector<SparseEntryRgb> kept;
-    auto value = worker.coefficients.begin();  // both ascending
-    for (const Candidate& c : worker.candidates) {
-      while (value->index != c.entry.column) ++value;
-      kept.push_back({value->index, value->value});
-    }
+    for (size_t k = 0; k < limit; ++k)
+      kept.push_back({all[worker.ranked[k].at].index, all[worker.ranked[k].at].value});
+    std::sort(kept.begin(), kept.end(),
+              [](const SparseEntryRgb& a, const SparseEntryRgb& b) { return a.column < b.column; });
     return kept;
+  }
+
+  float weight(const wavelet::SparseValue& c) const {
+    const auto support = static_cast<float>(wavelet::support(c.index, columns()));
+    const float exponent = settings_.gather.support_exponent;
+    return glm::length(c.value) * (exponent == 1.0f ? support : std::pow(support, exponent));
   }
 
   const MultiBounceInput& in_;
