@@ -20,6 +20,7 @@ class DirectToIndirect : public Method {
     return "Hasan, Pellacini, Bala: Direct-to-Indirect Transfer for Cinematic Relighting, SIGGRAPH 2006";
   }
   KnobTable knobs() const override { return knob_table(); }
+  std::vector<KnobPreset> presets() const override { return knob_presets(); }
   LightPaths light_paths(const KnobValues& knobs) const override {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
