@@ -66,7 +66,7 @@ double sum(const Image& image) {
   return total;
 }
 
-// What the reference is restricted to.
+// What the reference is restricted to. Tried: the default light paths.
 TEST(MultiBounceMethod, DeclaresAsManyDiffuseBouncesAsItComputes) {
   const Bench bench;
   for (const int bounces : {1, 4}) {
@@ -117,8 +117,8 @@ TEST(MultiBounceMethod, AddsLightByEitherKindFromTheCacheTooAndOneBounceCostsNot
 }
 
 // Two products of up to 40 terms, or three, and as many Haar transforms in float: rounding only. Red if the
-// shader reads another channel, direct light is not added again, or the number of passes differs. Tried: the
-// addition left out on the GPU; one pass more in the twin.
+// shader reads another channel, direct light is not added again, or the number of passes differs. Tried,
+// together: the addition left out on the GPU; green and blue exchanged in the shader.
 TEST(MultiBounceLight, OnTheGpuAgreesWithItsDoublePrecisionTwin) {
   const auto context = gpu::Context::create("osmesa");
   const BounceSetup s(closed_box(glm::vec3(0.8f, 0.5f, 0.2f)), 1024, true);

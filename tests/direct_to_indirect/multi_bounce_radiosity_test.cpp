@@ -76,14 +76,12 @@ Difference difference(BounceKind kind, int coefficients) {
   }
   const auto total = [](const glm::dvec3& v) { return v.x + v.y + v.z; };
   const Difference out{std::sqrt(total(difference2) / total(norm2)), total(sum) / total(expected_sum)};
-  printf("kind %d coefficients %d: norm %g bias %g\n", kind == BounceKind::transfer, coefficients, out.norm,
-         out.bias);
   return out;
 }
 
 // The floor's photons are about a sixth of the 1200 in a disc: 7 % of noise a sample. 6 deviations of the
 // mean over all photons of the floor are 2 %. Red if a colour is taken from the wrong end of a path, or hits
-// of the first bounce only are kept. Tried: reflection before the deposit instead of after it.
+// of the first bounce only are kept. TRIED_RADIOSITY
 TEST(MultiBounceRadiosity, PhotonsGiveTheSolutionButForTheirNoise) {
   const Difference all = difference(BounceKind::photons, samples),
                    forty = difference(BounceKind::photons, 40);
