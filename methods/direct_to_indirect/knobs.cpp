@@ -33,6 +33,16 @@ KnobTable knob_table() {
        "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
       {"support_exponent", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps the coefficients with the largest |c| x support^this: 1 weights by area (paper), 0 by size alone."},
+      {"bounces", integer, precompute, "1", 1, 64, {}, "multi_bounce",
+       "Bounces of indirect light in all; 1: the final gather alone, nothing of the multiple-bounce matrix is computed (paper: 4, by photon paths of length 3)."},
+      {"multi_bounce", choice, precompute, "photons", 0, 0, {"photons", "transfer"}, "multi_bounce",
+       "Multiple-bounce matrix by density estimation on photons (paper), or by links between gather samples, applied once a bounce."},
+      {"bounce_coefficients", integer, precompute, "40", 1, 65536, {}, "multi_bounce",
+       "Wavelet coefficients kept a row of the multiple-bounce matrix (paper: 40)."},
+      {"photons", integer, precompute, "1000000", 1, 1000000000, {}, "multi_bounce",
+       "Photon paths shot from the gather samples, spread evenly over them (paper: one million, about 15 a sample)."},
+      {"photon_neighbours", integer, precompute, "2000", 2, 1000000, {}, "multi_bounce",
+       "Nearest photons of the density estimate at a gather sample (paper: 2,000; GPU Gems: about 1,000)."},
       {"refit_lights", integer, precompute, "0", 0, 4096, {}, "refit",
        "Kept coefficients are refitted to this many random lights in front of the view; 0 leaves them as they are (paper)."},
       {"refit_candidates", real, precompute, "1", 1, 8, {}, "refit",
@@ -44,7 +54,7 @@ KnobTable knob_table() {
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
        "Texels a side of a shadow map."},
       {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu"}, "transfer",
-       "Where Haar transform and sparse product run: GLSL, or the double-precision CPU twin."},
+       "Where Haar transform and sparse products run: GLSL, or the double-precision CPU twin."},
   };
   // clang-format on
 }
