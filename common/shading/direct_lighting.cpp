@@ -8,7 +8,7 @@
 
 #include "common/gpu/program.h"
 #include "common/gpu/timer.h"
-#include "common/run/error.h"
+#include "common/shading/non_finite_report.h"
 #include "common/shading/shadow_maps.h"
 #include "common/shading/traced_visibility.h"
 #include "common/tracing/ray_tracer.h"
@@ -148,16 +148,7 @@ void DirectLighting::Impl::shade_set(const Request& request, const gpu::Buffer* 
 void DirectLighting::Impl::check_report(StageLog& log) const {
   const std::vector<uint32_t> found = report.download<uint32_t>();
   if (found[0] == 0) return;
-  const std::string sentence = fmt::format(
-      "direct shading: {} radiances were not finite and were replaced by zero, the first at sample {}; a "
-      "light may be "
-      "closer to a surface than floats can tell",
-      found[0], found[1]);
-#ifndef NDEBUG
-  fail("{}", sentence);
-#endif
-  log.count("non_finite_direct_shading", found[0]);
-  log.warn(sentence);
+  report_non_finite_shading(found[0], found[1], log);
 }
 
 }  // namespace relight

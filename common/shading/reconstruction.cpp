@@ -7,6 +7,7 @@
 #include "common/gpu/program.h"
 #include "common/run/error.h"
 #include "common/run/stage_log.h"
+#include "common/shading/non_finite_report.h"
 
 namespace relight {
 namespace {
@@ -29,18 +30,7 @@ Image download_image(const gpu::Buffer& buffer, int width, int height, const cha
       first_bad = i;
     }
   }
-  if (bad > 0) {
-    const auto w = static_cast<size_t>(width);
-    const std::string sentence = fmt::format(
-        "reconstruction: {} pixels of the {} image were not finite and were replaced by zero, the first "
-        "at x = {}, y = {}",
-        bad, which, first_bad % w, first_bad / w);
-#ifndef NDEBUG
-    fail("{}", sentence);
-#endif
-    log.count("non_finite_reconstruction", bad);
-    log.warn(sentence);
-  }
+  if (bad > 0) report_non_finite_pixels(which, bad, first_bad, static_cast<size_t>(width), log);
   return image;
 }
 

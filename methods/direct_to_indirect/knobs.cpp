@@ -29,12 +29,12 @@ KnobTable knob_table() {
        "Kept coefficients are refitted to this many random lights in front of the view; 0 leaves them as they are (paper)."},
       {"refit_ridge", real, precompute, "0.3", 0.001, 1000, {}, "refit",
        "Weight of the original values in the refit, in units of the mean squared response of a kept coefficient."},
-      {"shadows", choice, relight, "map", 0, 0, {"map", "traced"}, "direct_shading",
-       "Shadows on view and gather samples: shadow maps (paper) or exact traced rays."},
+      {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "direct_shading",
+       "Shadows on view and gather samples: shadow maps (paper; GPU only) or exact traced rays; auto: traced if device=cpu, else map."},
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
        "Texels a side of a shadow map."},
-      {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu"}, "transfer",
-       "Where Haar transform and sparse product run: GLSL, or the double-precision CPU twin."},
+      {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "transfer",
+       "Where relighting runs: in GLSL, or all on the CPU in float; oracle: as gpu, but Haar transform and product in double on the CPU (slow)."},
   };
   // clang-format on
 }

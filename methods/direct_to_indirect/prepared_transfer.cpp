@@ -25,11 +25,11 @@ class PreparedTransfer : public Prepared {
   PreparedTransfer(const PrepareContext& context, Artefact artefact)
       : matrix_(std::move(artefact.final_gather)),
         kd_(diffuse_albedo(context.buffer)),
-        on_cpu_(context.knobs.choice("device") == "cpu"),
+        oracle_(context.knobs.choice("device") == "oracle"),
         gather_(artefact.cloud.samples, context.buffer.view.camera.eye),
         view_(context.buffer.direct, context.buffer.view.camera.eye),
         lighting_(context.gpu, context.scene, context.tracer,
-                  {context.knobs.choice("shadows") == "map" ? Shadows::map : Shadows::traced,
+                  {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
                    static_cast<int>(context.knobs.integer("shadow_map_size"))}),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
         product_(matrix_, kd_, context.gpu.max_storage_block_bytes()),
@@ -49,8 +49,8 @@ class PreparedTransfer : public Prepared {
   Relit relight(const LightingState& lighting, StageLog& log) override {
     lighting_.shade(lighting,
                     {{&gather_, Lobes::diffuse, &gather_direct_}, {&view_, Lobes::all, &view_direct_}}, log);
-    if (on_cpu_)
-      transfer_on_cpu(log);
+    if (oracle_)
+      transfer_in_double(log);
     else
       transfer_on_gpu(log);
     Reconstruction::Images images = reconstruction_.resolve(view_direct_, indirect_, log);
@@ -73,7 +73,7 @@ class PreparedTransfer : public Prepared {
   }
 
   // The double-precision twin: the oracle of the GPU path.
-  void transfer_on_cpu(StageLog& log) {
+  void transfer_in_double(StageLog& log) {
     std::vector<glm::dvec3> g;
     {
       StageTimer timer(log, "wavelet_transform");
@@ -89,7 +89,7 @@ class PreparedTransfer : public Prepared {
 
   SparseRows matrix_;
   std::vector<glm::vec3> kd_;
-  bool on_cpu_;
+  bool oracle_;
   GpuSamples gather_, view_;
   DirectLighting lighting_;
   wavelet::HaarGpu haar_;
