@@ -26,7 +26,6 @@ class BlockLighting {
     size_t lanes_per_value;
     std::span<glm::vec4> out;
   };
-  enum class Onto { nothing, what_is_there };
 
   // Adds the radiance of each light in turn to zero, or to what `out` holds. Lights of zero intensity cost
   // nothing; throws Error for lights other than omni and spot. Logs stages "shadow_rays" and
