@@ -33,7 +33,8 @@ struct FinalGatherSettings {
   bool shared_budget = false;      // all rows share coefficients x rows, the heaviest of all are kept
   float support_exponent =
       1.0f;                  // coefficients are ranked by |c| x support^this: 1 by area (paper), 0 by size
-  float refit_ridge = 0.3f;  // see light_refit.h
+  float refit_ridge = 0.1f;  // see light_refit.h
+  float refit_candidates = 1.0f;  // coefficients that the refit chooses from, for each that it keeps
   uint64_t seed = 1;
 
   // Most that one row may keep. A shared budget is mostly used up below four times the mean.

@@ -27,8 +27,10 @@ KnobTable knob_table() {
        "A row keeps the coefficients with the largest |c| x support^this: 1 weights by area (paper), 0 by size alone."},
       {"refit_lights", integer, precompute, "0", 0, 4096, {}, "refit",
        "Kept coefficients are refitted to this many random lights in front of the view; 0 leaves them as they are (paper)."},
-      {"refit_ridge", real, precompute, "0.3", 0.001, 1000, {}, "refit",
-       "Weight of the original values in the refit, in units of the mean squared response of a kept coefficient."},
+      {"refit_candidates", real, precompute, "1", 1, 8, {}, "refit",
+       "Of this many times the coefficients kept, the refit chooses those that serve its lights best; 1: no choice."},
+      {"refit_ridge", real, precompute, "0.1", 0.001, 1000, {}, "refit",
+       "Weight of the original values in the refit, in units of each coefficient's own squared response: how much its lights are distrusted."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "direct_shading",
        "Shadows on view and gather samples: shadow maps (paper; GPU only) or exact traced rays; auto: traced if device=cpu, else map."},
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
@@ -37,6 +39,13 @@ KnobTable knob_table() {
        "Where relighting runs: in GLSL, or all on the CPU in float; oracle: as gpu, but Haar transform and product in double on the CPU (slow)."},
   };
   // clang-format on
+}
+
+std::vector<KnobPreset> knob_presets() {
+  return {{"best",
+           "The paper's number of coefficients in every row, chosen and refitted for random lights "
+           "(light_refit.h): twice the precompute time, the same relight time.",
+           {{"support_exponent", "0.8"}, {"refit_lights", "2048"}, {"refit_candidates", "1.5"}}}};
 }
 
 }  // namespace relight::direct_to_indirect

@@ -20,6 +20,7 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
   settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
+  settings.refit_candidates = static_cast<float>(knobs.real("refit_candidates"));
   settings.seed = context.seed;
   return settings;
 }
