@@ -40,8 +40,9 @@ struct ProductSettings {
   // column)^2. That makes it independent of the lights' brightness and of the size of the picture. 0 skips
   // what gives nothing, a negative value skips nothing. Forms without blocks ignore it.
   float cull_epsilon = 0.0f;
-  float block_waste = 0.5f;  // largest share of zeros in a rectangle before it is split (section 4.4)
-  int atlas_size = 4096;     // texels a side (section 4.4)
+  float block_waste = 0.65f;  // largest share of zeros in a rectangle before it is split (section 4.4; 0.65
+                              // stores about half zeros)
+  int atlas_size = 4096;      // texels a side (section 4.4)
 };
 
 // What a form stores and, for the last multiply, what it skipped.
