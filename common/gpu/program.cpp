@@ -86,6 +86,9 @@ void Program::set(const std::string& name, float value) const {
 void Program::set(const std::string& name, const glm::vec2& value) const {
   glProgramUniform2fv(id(), location(name), 1, &value.x);
 }
+void Program::set(const std::string& name, const glm::uvec2& value) const {
+  glProgramUniform2uiv(id(), location(name), 1, &value.x);
+}
 void Program::set(const std::string& name, const glm::vec3& value) const {
   glProgramUniform3fv(id(), location(name), 1, &value.x);
 }

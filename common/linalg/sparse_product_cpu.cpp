@@ -1,14 +1,12 @@
 #include "common/linalg/sparse_product_cpu.h"
 
-#include <immintrin.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "common/linalg/load_weights.h"
 #include "common/run/error.h"
 
 namespace relight {
@@ -16,15 +14,6 @@ namespace {
 
 constexpr uint64_t group = 8;  // entries that one AVX register of floats holds
 constexpr size_t rows_a_task = 512;
-
-// Eight stored weights as floats.
-__m256 load_weights(const float* at) { return _mm256_loadu_ps(at); }
-__m256 load_weights(const int16_t* at) {
-  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at))));
-}
-__m256 load_weights(const int8_t* at) {
-  return _mm256_cvtepi32_ps(_mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at))));
-}
 
 // The light of two columns side by side.
 template <typename Column>
@@ -81,23 +70,11 @@ void multiply_rows(WeightFormat format, const std::vector<uint32_t>& group_start
   }
 }
 
-void store_weight(WeightFormat format, float value, std::byte* weights, uint64_t at) {
-  const auto put = [&](auto v) { std::memcpy(weights + at * sizeof(v), &v, sizeof(v)); };
-  switch (format) {
-    case WeightFormat::float32:
-      return put(value);
-    case WeightFormat::bits16:
-      return put(static_cast<int16_t>(std::lrint(value)));
-    case WeightFormat::bits8:
-      return put(static_cast<int8_t>(std::lrint(value)));
-  }
-}
-
 }  // namespace
 
 SparseProductCpu::SparseProductCpu(const SparseRows& matrix, std::span<const glm::vec3> row_scale,
                                    WeightFormat format)
-    : columns_(matrix.columns), format_(format) {
+    : columns_(matrix.columns), format_(format), non_zeros_(static_cast<int64_t>(matrix.entries.size())) {
   check_sparse_rows(matrix);
   if (row_scale.size() != matrix.rows())
     fail("sparse product: {} scales for {} rows", row_scale.size(), matrix.rows());
@@ -139,10 +116,14 @@ void SparseProductCpu::multiply(std::span<const glm::vec4> x, std::span<glm::vec
     multiply_rows(format_, group_start_, wide_.data(), weights_.data(), row_factor_, x.data(), y.data());
 }
 
-int64_t SparseProductCpu::bytes() const {
-  return static_cast<int64_t>(group_start_.size() * sizeof(uint32_t) + narrow_.size() * sizeof(uint16_t) +
-                              wide_.size() * sizeof(uint32_t) + weights_.size() +
-                              row_factor_.size() * sizeof(glm::vec4));
+ProductStatistics SparseProductCpu::statistics() const {
+  ProductStatistics s;
+  s.non_zeros = non_zeros_;
+  s.stored = static_cast<int64_t>(group_start_.back() * group);
+  s.bytes = static_cast<int64_t>(group_start_.size() * sizeof(uint32_t) + narrow_.size() * sizeof(uint16_t) +
+                                 wide_.size() * sizeof(uint32_t) + weights_.size() +
+                                 row_factor_.size() * sizeof(glm::vec4));
+  return s;
 }
 
 }  // namespace relight

@@ -16,11 +16,11 @@
 #include <glm/glm.hpp>
 
 #include "common/linalg/sparse_rows.h"
-#include "common/linalg/weight_format.h"
+#include "common/linalg/transfer_product.h"
 
 namespace relight {
 
-class SparseProductCpu {
+class SparseProductCpu : public TransferProduct {
  public:
   // row_scale: one RGB factor a row (the diffuse albedo k_d). Throws Error if its length is not the number of
   // rows, or naming row and column of a weight that is not finite or whose column lies outside the matrix.
@@ -29,16 +29,18 @@ class SparseProductCpu {
   // x: one vec4 a column, w ignored; y: one vec4 a row, w = 0. Throws Error on other lengths. The sums are in
   // float; the same bits for any number of threads. A non-finite x reaches exactly the rows that have its
   // column.
-  void multiply(std::span<const glm::vec4> x, std::span<glm::vec4> y) const;
+  void multiply(std::span<const glm::vec4> x, std::span<glm::vec4> y) const override;
+  ProductStatistics statistics() const override;
 
   size_t rows() const { return row_factor_.size(); }
   uint32_t columns() const { return columns_; }
   // Bytes of the stored matrix: columns, weights, group offsets and row factors.
-  int64_t bytes() const;
+  int64_t bytes() const { return statistics().bytes; }
 
  private:
   uint32_t columns_;
   WeightFormat format_;
+  int64_t non_zeros_;
   std::vector<uint32_t> group_start_;  // rows + 1 offsets in groups of eight entries
   std::vector<uint16_t> narrow_;       // columns, eight a group; one of the two is empty
   std::vector<uint32_t> wide_;

@@ -37,9 +37,13 @@ int largest_integer(WeightFormat format) {
 }
 
 float quantisation_step(std::span<const SparseEntry> entries, WeightFormat format) {
-  if (format == WeightFormat::float32) return 1.0f;
   float largest = 0.0f;
   for (const SparseEntry& e : entries) largest = std::max(largest, std::abs(e.value));
+  return quantisation_step(largest, format);
+}
+
+float quantisation_step(float largest, WeightFormat format) {
+  if (format == WeightFormat::float32) return 1.0f;
   // A step below the smallest normal number would be rounded, and largest / step would leave the integers.
   return std::max(largest / static_cast<float>(largest_integer(format)), std::numeric_limits<float>::min());
 }

@@ -20,6 +20,8 @@ int bytes_of(WeightFormat format);
 // The step of a quantised format for these entries, 1 for float32: |value / step| <= largest_integer. Never
 // 0, so that rows of zeros and of denormals can be divided by it.
 float quantisation_step(std::span<const SparseEntry> entries, WeightFormat format);
+// The same for the largest magnitude of some entries.
+float quantisation_step(float largest, WeightFormat format);
 // Largest integer of a quantised format (127 or 32767); throws std::logic_error for float32.
 int largest_integer(WeightFormat format);
 

@@ -37,6 +37,16 @@ KnobTable knob_table() {
        "Texels a side of a shadow map."},
       {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "transfer",
        "Where relighting runs: in GLSL, or all on the CPU in float; oracle: as gpu, but Haar transform and product in double on the CPU (slow)."},
+      {"product", choice, relight, "tiles", 0, 0, {"rows", "tiles", "quads"}, "transfer",
+       "Form of the sparse product: by rows, blocks of screen tiles summed in registers, or blended rectangles of columns (paper; GPU only)."},
+      {"weights", choice, relight, "8", 0, 0, {"8", "16", "float32"}, "transfer",
+       "How the product stores the matrix: integers of 8 (paper) or 16 bits with a scale a block or row, or floats."},
+      {"cull_epsilon", real, relight, "0", -1, 1, {}, "transfer",
+       "Blocks whose |wavelet light| x norm is at most this share of all lights' root sum of squares are skipped; below 0 none is (not by rows, not on the CPU)."},
+      {"partial_results", choice, relight, "float32", 0, 0, {"float32", "float16"}, "transfer",
+       "What product=quads blends in; the paper's 16 bits lose light (docs/products.md)."},
+      {"block_waste", real, relight, "0.65", 0, 1, {}, "upload",
+       "Largest share of zeros in a rectangle of product=quads before it is split (0.65: half of what is stored, as in the paper)."},
   };
   // clang-format on
 }

@@ -1,24 +1,16 @@
 #include "methods/direct_to_indirect/prepared_transfer.h"
 
-#include <algorithm>
-
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
-#include "common/linalg/sparse_product_gpu.h"
+#include "common/linalg/product_list.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
+#include "methods/direct_to_indirect/transfer_settings.h"
 
 namespace relight::direct_to_indirect {
 namespace {
-
-std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer) {
-  std::vector<glm::vec3> kd(buffer.indirect.size());
-  std::transform(buffer.indirect.begin(), buffer.indirect.end(), kd.begin(),
-                 [](const SurfaceSample& s) { return s.diffuse; });
-  return kd;
-}
 
 // Direct light on the gather samples and on the view's sub-samples, a vec4 each.
 struct DirectLight {
@@ -61,12 +53,10 @@ class PreparedTransfer : public Prepared {
         oracle_(context.knobs.choice("device") == "oracle"),
         samples_(context, artefact.cloud),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
-        product_(matrix_, kd_, context.gpu.max_storage_block_bytes()),
         reconstruction_(context.buffer),
         direct_(samples_.make()),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
-    context.log.bytes("final_gather_matrix", matrix_.bytes());
-    context.log.bytes("final_gather_matrix_gpu", product_.bytes());
+    make_product(context);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes());
     context.log.bytes("lighting", samples_.lighting.bytes());
@@ -88,15 +78,31 @@ class PreparedTransfer : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
+  // Makes the product and lets the matrix go, of which only the oracle needs the floats.
+  void make_product(const PrepareContext& context) {
+    context.log.bytes("final_gather_matrix", matrix_.bytes());
+    if (oracle_) return;
+    const View& view = context.buffer.view;
+    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, {view.width, view.height},
+                                product_settings(context.knobs), context.gpu.max_storage_block_bytes());
+    matrix_ = {};
+    log_product(product_->statistics(), context.log);
+  }
+
   void transfer_on_gpu(const gpu::Buffer& gather_direct, StageLog& log) {
     {
       StageTimer timer(log, "wavelet_transform");
       haar_.forward(gather_direct);
       gpu::finish();
     }
-    StageTimer timer(log, "transfer");
-    product_.multiply(haar_.coefficients(), indirect_);
-    gpu::finish();
+    {
+      StageTimer timer(log, "transfer");
+      product_->multiply(haar_.coefficients(), indirect_);
+      gpu::finish();
+    }
+    const CullStatistics culled = product_->culled();
+    log.count("transfer_blocks_culled", culled.blocks);
+    log.count("transfer_weights_culled", culled.weights);
   }
 
   // The double-precision twin: the oracle of the GPU path.
@@ -114,15 +120,15 @@ class PreparedTransfer : public Prepared {
     indirect_.upload(0, indirect_.bytes(), v.data());
   }
 
-  SparseRows matrix_;
+  SparseRows matrix_;  // empty once a product is made of it
   std::vector<glm::vec3> kd_;
   bool oracle_;
   LitSamples samples_;
   wavelet::HaarGpu haar_;
-  SparseProductGpu product_;
   Reconstruction reconstruction_;
   CachedDirectLight<DirectLight> direct_;
   gpu::Buffer indirect_;
+  std::unique_ptr<TransferProductGpu> product_;  // none for the oracle
 };
 
 }  // namespace

@@ -1,23 +1,15 @@
 #include "methods/direct_to_indirect/prepared_transfer_cpu.h"
 
-#include <algorithm>
-
-#include "common/linalg/sparse_product_cpu.h"
+#include "common/linalg/product_list.h"
 #include "common/run/error.h"
 #include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
 #include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/transfer_settings.h"
 
 namespace relight::direct_to_indirect {
 namespace {
-
-std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer) {
-  std::vector<glm::vec3> kd(buffer.indirect.size());
-  std::transform(buffer.indirect.begin(), buffer.indirect.end(), kd.begin(),
-                 [](const SurfaceSample& s) { return s.diffuse; });
-  return kd;
-}
 
 // Direct light on the gather samples and, filtered to pixels, on the view.
 struct DirectLight {
@@ -53,12 +45,13 @@ class PreparedTransferCpu : public Prepared {
   PreparedTransferCpu(const PrepareContext& context, Artefact artefact)
       : samples_(context, artefact.cloud),
         haar_(artefact.cloud.samples.size()),
-        product_(artefact.final_gather, diffuse_albedo(context.buffer), WeightFormat::bits16),
+        product_(make_product(context, artefact.final_gather)),
         reconstruction_(context.buffer),
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),
         indirect_(context.buffer.indirect.size()) {
-    context.log.bytes("final_gather_matrix", product_.bytes());
+    context.log.bytes("final_gather_matrix", artefact.final_gather.bytes());
+    log_product(product_->statistics(), context.log);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
     context.log.bytes("partial_results", direct_.bytes() + haar_.bytes() +
@@ -74,7 +67,7 @@ class PreparedTransferCpu : public Prepared {
     }
     {
       const StageTimer timer(log, "transfer");
-      product_.multiply(coefficients_, indirect_);
+      product_->multiply(coefficients_, indirect_);
     }
     FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
     return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};
@@ -83,9 +76,16 @@ class PreparedTransferCpu : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
+  static std::unique_ptr<TransferProduct> make_product(const PrepareContext& context,
+                                                       const SparseRows& matrix) {
+    const View& view = context.buffer.view;
+    return make_product_cpu(context.knobs.choice("product"), matrix, diffuse_albedo(context.buffer),
+                            {view.width, view.height}, product_settings(context.knobs));
+  }
+
   LitSamples samples_;
   wavelet::HaarCpu haar_;
-  SparseProductCpu product_;
+  std::unique_ptr<TransferProduct> product_;
   FusedReconstruction reconstruction_;
   CachedDirectLight<DirectLight> direct_;
   std::vector<glm::vec4> coefficients_, indirect_;
