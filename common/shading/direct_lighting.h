@@ -20,7 +20,8 @@ class RayTracer;
 // Surface samples resident on the GPU. Invalid samples shade to black.
 class GpuSamples {
  public:
-  GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye);
+  // slab_samples: the most that one dispatch shades, a multiple of 8192; 0: what the GPU takes.
+  GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye, int64_t slab_samples = 0);
   size_t size() const { return samples_.size(); }
   const std::vector<SurfaceSample>& host() const { return samples_; }
   const glm::vec3& eye() const { return eye_; }

@@ -51,7 +51,7 @@ int64_t largest_slab() {
 
 }  // namespace
 
-GpuSamples::GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye)
+GpuSamples::GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye, int64_t slab_samples)
     : samples_(samples), eye_(eye), data_(static_cast<int64_t>(samples.size() * sizeof(PackedSample))) {
   upload_pieces<PackedSample>(samples, data_, pack);
   has_glossy_ = std::any_of(samples.begin(), samples.end(), is_glossy);
@@ -60,7 +60,7 @@ GpuSamples::GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec
     upload_pieces<shader::BrdfShape>(samples, shapes_, [](const SurfaceSample& s) { return s.shape; });
   }
   const auto size = static_cast<int64_t>(samples.size());
-  const int64_t largest = largest_slab();
+  const int64_t largest = slab_samples > 0 ? slab_samples : largest_slab();
   for (int64_t first = 0; first < size; first += largest)
     slabs_.push_back(slab(first, std::min(largest, size - first)));
 }
