@@ -131,7 +131,11 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
           : 0.0f;
   Builder builder(in.buffer, settings, static_cast<uint32_t>(in.cloud.samples.size()), threshold);
   tbb::enumerable_thread_specific<Worker> workers([&] {
-    Worker worker{TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale), {}, {}, {}, {}};
+    Worker worker{TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale, in.near_field),
+                  {},
+                  {},
+                  {},
+                  {}};
     if (in.training.count > 0) worker.refit.emplace(in.training, settings.refit_ridge);
     return worker;
   });
@@ -146,6 +150,8 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
   for (const Worker& w : workers) {
     sum.gather.rays += w.gather.counts().rays;
     sum.gather.links += w.gather.counts().links;
+    sum.gather.near_elements += w.gather.counts().near_elements;
+    sum.gather.near_rays += w.gather.counts().near_rays;
     sum.before += w.totals.before;
     sum.energy_before += w.totals.energy_before;
     sum.energy_kept += w.totals.energy_kept;
@@ -153,6 +159,10 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
   SparseRows rows = builder.finish();
   log.count("visibility_rays", sum.gather.rays);
   log.count("links", sum.gather.links);
+  if (in.near_field) {
+    log.count("near_elements", sum.gather.near_elements);
+    log.count("near_rays", sum.gather.near_rays);
+  }
   log.count("coefficients_before_truncation", sum.before);
   log.count("non_zeros", static_cast<int64_t>(rows.entries.size()));
   if (sum.energy_before > 0.0 && in.training.count == 0)  // refitted values carry what was dropped
