@@ -34,8 +34,7 @@ Relit relit_by_both(TransferBench& bench, const Light& light) {
   return cpu;
 }
 
-// Red if a block of nothing but background has bounds, or a quad without samples lights up (tried: blocks
-// without samples culled only by their bounds' arithmetic, without the check for emptiness).
+// Red if a quad without samples lights up, or a miss takes a neighbour's indirect light.
 TEST(RelightHardCases, BackgroundStaysBlackBesideAThinStripOfScene) {
   TransferBench bench([] {
     Scene scene = tiny::room();

@@ -68,7 +68,7 @@ size_t expect_equal(const std::vector<glm::vec4>& got, const std::vector<glm::ve
 }
 
 // Red if culling hides a lit block, lanes are mixed up or a formula is restated (tried: culling with half the
-// radius; offset along the shading normal; last block's lanes read from its first).
+// radius).
 TEST(BlockLighting, EqualsThePlainTwinBitByBitUnderEveryLight) {
   const Room room;
   for (const Light& light : hard_lights()) {
@@ -101,9 +101,8 @@ TEST(BlockLighting, EqualsThePlainTwinBitByBitForEveryModel) {
   }
 }
 
-// Red if culling is no longer conservative, or no longer culls. (The blocks here are neighbours in an image,
-// as the random samples above are not. Tried: no cosine margin passes, half the radius fails; nothing culled
-// fails.)
+// Red if culling hides a lit block, or no longer culls (tried: nothing culled). The blocks here are neighbours
+// in an image, as the random samples above are not.
 TEST(BlockCulling, SkipsMostBlocksOutsideANarrowConeAndNoneThatIsLit) {
   const Room room;
   const View view{room.scene.camera, 96, 64};
@@ -124,7 +123,7 @@ TEST(BlockCulling, SkipsMostBlocksOutsideANarrowConeAndNoneThatIsLit) {
 }
 
 // Red if the four lanes of a pixel are not its own, odd sizes shift rows, or sums are taken in another order
-// (tried: x and y of pixel_quad_order exchanged; resolve reading the quad's pixels transposed).
+// (tried: x and y of pixel_quad_order exchanged; resolve taking a wrong row of the quad).
 TEST(FusedReconstruction, EqualsThePlainTwinsBitByBitOnAnOddView) {
   const Room room;
   View view{room.scene.camera, 77, 45};
@@ -159,7 +158,7 @@ TEST(FusedReconstruction, EqualsThePlainTwinsBitByBitOnAnOddView) {
   }
 }
 
-// Red if a NaN or infinity reaches the picture, or is replaced without a word (tried: without the checks).
+// Red if a NaN or infinity reaches the picture, or is replaced without a word (tried: without replacing).
 TEST(BlockLighting, RadianceBeyondFloatIsReplacedAndReported) {
   const Room room;
   Light light = omni_light(room.samples[40].position + room.samples[40].geometric_normal * 1e-3f);

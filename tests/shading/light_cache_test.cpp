@@ -37,7 +37,7 @@ class Numbers {
 };
 
 // Red if a light is counted twice, forgotten, or kept after it moved (tried: the sum kept while one of its
-// lights is gone; into_sum lights shaded on top as well).
+// lights is gone; a new sum not started from zero).
 TEST(LightCache, GivesTheSumOfTheLightsWhateverCameBefore) {
   Numbers numbers;
   for (const auto& heights : std::vector<std::vector<float>>{{1, 2, 4},
@@ -63,7 +63,7 @@ TEST(LightCache, GivesTheSumOfTheLightsWhateverCameBefore) {
   }
 }
 
-// Red if lights that stand still are shaded again while one moves (tried: the sum never kept).
+// Red if lights that stand still are shaded again while one moves.
 TEST(LightCache, AMovingLightCostsOneShadingAFrameOnceTheOthersAreGathered) {
   Numbers numbers;
   numbers.relight(lamps({1, 2, 4, 8}));

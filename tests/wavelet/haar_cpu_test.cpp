@@ -22,7 +22,7 @@ std::vector<glm::vec4> random_values(size_t n) {
 }
 
 // The bound of the GPU's transform: log4(n) levels of additions, each with a relative error of at most a few
-// 2^-24. Red if a level reads the wrong scratch buffer or the root forgets coefficient 0 (tried: both).
+// 2^-24. Red if a level reads the wrong scratch buffer or the root forgets coefficient 0.
 TEST(HaarCpu, AgreesWithTheDoublePrecisionTransformToFloatRounding) {
   for (const size_t n : {1u, 4u, 16u, 64u, 4096u, 65536u}) {
     const std::vector<glm::vec4> values = random_values(n);
