@@ -58,6 +58,12 @@ void Buffer::clear() const {
   glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
+void Buffer::copy_from(const Buffer& other) const {
+  if (other.bytes_ != bytes_)
+    throw std::logic_error(fmt::format("copy_from: {} bytes into a buffer of {}", other.bytes_, bytes_));
+  if (bytes_ > 0) glCopyNamedBufferSubData(other.id(), id(), 0, 0, bytes_);
+}
+
 void Buffer::upload(int64_t offset, int64_t bytes, const void* data) const {
   check_range("upload", offset, bytes, bytes_);
   if (bytes > 0) glNamedBufferSubData(id(), offset, bytes, data);

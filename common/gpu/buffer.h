@@ -28,7 +28,8 @@ class Buffer {
   void bind_storage(int binding, int64_t offset, int64_t bytes) const;
   static int64_t storage_alignment();
 
-  void clear() const;  // all bytes zero
+  void clear() const;                         // all bytes zero
+  void copy_from(const Buffer& other) const;  // of the same size
   void upload(int64_t offset, int64_t bytes, const void* data) const;
   void download(void* out, int64_t bytes, int64_t offset = 0) const;  // waits for the GPU
   template <typename T>

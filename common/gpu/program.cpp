@@ -86,6 +86,9 @@ void Program::set(const std::string& name, float value) const {
 void Program::set(const std::string& name, const glm::vec2& value) const {
   glProgramUniform2fv(id(), location(name), 1, &value.x);
 }
+void Program::set(const std::string& name, const glm::uvec2& value) const {
+  glProgramUniform2uiv(id(), location(name), 1, &value.x);
+}
 void Program::set(const std::string& name, const glm::vec3& value) const {
   glProgramUniform3fv(id(), location(name), 1, &value.x);
 }
@@ -110,7 +113,8 @@ void Program::dispatch_items(int64_t items, int local_size) const {
   const int64_t columns = std::min<int64_t>(groups, limit);
   use();
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>((groups + columns - 1) / columns), 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace relight::gpu

@@ -25,6 +25,7 @@ class Program {
   void set(const std::string& name, uint32_t value) const;
   void set(const std::string& name, float value) const;
   void set(const std::string& name, const glm::vec2& value) const;
+  void set(const std::string& name, const glm::uvec2& value) const;
   void set(const std::string& name, const glm::vec3& value) const;
   void set(const std::string& name, const glm::vec4& value) const;
   void set(const std::string& name, const glm::mat4& value) const;

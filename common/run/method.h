@@ -47,8 +47,13 @@ struct Relit {
 class Prepared {
  public:
   virtual ~Prepared() = default;
-  // Relights under a lighting; every lighting is independent of earlier ones. Logs relight stages.
+  // Relights under a lighting. The result does not depend on earlier lightings, except by the rounding of
+  // float sums in another order; the time may: a method may keep the light of lamps that don't change from
+  // call to call. Logs relight stages.
   virtual Relit relight(const LightingState& lighting, StageLog& log) = 0;
+  // Drops whatever was kept of earlier lightings: the next relight costs what the first one did. Timing calls
+  // it before every repeat, or it would report the time of doing nothing.
+  virtual void forget() {}
 };
 
 class Method {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "common/gpu/program.h"
 #include "common/gpu/timer.h"
-#include "common/run/error.h"
+#include "common/shading/non_finite_report.h"
 #include "common/shading/shadow_maps.h"
 #include "common/shading/traced_visibility.h"
 #include "common/tracing/ray_tracer.h"
@@ -18,8 +18,24 @@ namespace {
 
 constexpr int local_size = 64;
 constexpr uint32_t no_index = std::numeric_limits<uint32_t>::max();
-constexpr int samples_binding = 0, radiance_binding = 1, visibility_binding = 2, report_binding = 3,
-              shapes_binding = 4;
+constexpr int radiance_binding = 1, visibility_binding = 2, report_binding = 3;
+constexpr int samples_unit = 1, shapes_unit = 2;  // ShadowMaps has texture unit 0
+
+// What a set needs of the shader; unused code is left out, because a software rasteriser runs both sides of
+// every branch.
+enum class Variant { diffuse, phong, all_models };
+
+Variant variant_of(const DirectLighting::Request& request) {
+  if (request.lobes == Lobes::diffuse || !request.samples->has_glossy()) return Variant::diffuse;
+  return request.samples->has_shapes() ? Variant::all_models : Variant::phong;
+}
+
+gpu::Program compile(Variant variant, Shadows shadows) {
+  return gpu::Program::compute("common/shading/direct_lighting.glsl",
+                               {shadows == Shadows::map ? "SHADOW_MAPS 1" : "SHADOW_MAPS 0",
+                                variant == Variant::diffuse ? "ALL_LOBES 0" : "ALL_LOBES 1",
+                                variant == Variant::all_models ? "SHAPES 1" : "SHAPES 0"});
+}
 
 }  // namespace
 
@@ -28,25 +44,19 @@ struct DirectLighting::Impl {
   const RayTracer& tracer;
   DirectLightingSettings settings;
   std::optional<ShadowMaps> maps;
-  gpu::Program program;
+  std::map<Variant, gpu::Program> programs;  // compiled when first needed
   gpu::Buffer report{2 * sizeof(uint32_t)};
-  int64_t slab;  // samples that one dispatch can bind
 
   Impl(gpu::Context& context, const Scene& scene, const RayTracer& ray_tracer,
        const DirectLightingSettings& s)
-      : gpu(context),
-        tracer(ray_tracer),
-        settings(s),
-        program(gpu::Program::compute("common/shading/direct_lighting.glsl",
-                                      {s.shadows == Shadows::map ? "SHADOW_MAPS 1" : "SHADOW_MAPS 0"})) {
+      : gpu(context), tracer(ray_tracer), settings(s) {
     if (s.shadows == Shadows::map) maps.emplace(scene, s.shadow_map_size);
-    // 64 bytes a sample; a multiple of 8192 samples keeps every range aligned, the visibility bits' too.
-    slab = std::max<int64_t>(gpu.max_storage_block_bytes() / 64 / 8192, 1) * 8192;
   }
 
+  const gpu::Program& program_for(const Request& request);
   void shade_light(const Light& light, bool first, const std::vector<Request>& requests, StageLog& log);
-  void set_light(const Light& light, bool first);
-  void shade_set(const Request& request, const gpu::Buffer* visibility);
+  void set_light(const gpu::Program& program, const Light& light, bool first) const;
+  void shade_set(const gpu::Program& program, const Request& request, const gpu::Buffer* visibility) const;
   std::vector<gpu::Buffer> trace(const Light& light, const std::vector<Request>& requests,
                                  StageLog& log) const;
   void check_report(StageLog& log) const;
@@ -64,6 +74,11 @@ int64_t DirectLighting::bytes() const { return impl_->maps ? impl_->maps->bytes(
 
 void DirectLighting::shade(const LightingState& lighting, const std::vector<Request>& requests,
                            StageLog& log) {
+  shade(lighting.lights, requests, Onto::nothing, log);
+}
+
+void DirectLighting::shade(std::span<const Light> lights, const std::vector<Request>& requests, Onto onto,
+                           StageLog& log) {
   impl_->gpu.make_current();
   for (const Request& r : requests) {
     if (r.out->bytes() < static_cast<int64_t>(r.samples->size() * sizeof(glm::vec4))) {
@@ -72,8 +87,8 @@ void DirectLighting::shade(const LightingState& lighting, const std::vector<Requ
   }
   const uint32_t nothing[2] = {0, no_index};
   impl_->report.upload(0, sizeof(nothing), nothing);
-  bool first = true;
-  for (const Light& light : lighting.lights) {
+  bool first = onto == Onto::nothing;
+  for (const Light& light : lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
     require_omni_or_spot(light);
     impl_->shade_light(light, first, requests, log);
@@ -89,10 +104,10 @@ void DirectLighting::shade(const LightingState& lighting, const std::vector<Requ
 void DirectLighting::Impl::shade_light(const Light& light, bool first, const std::vector<Request>& requests,
                                        StageLog& log) {
   std::vector<gpu::Buffer> visibility;
+  LightFrame frame;
   if (light.casts_shadows && maps) {
     const StageTimer timer(log, "shadow_maps");
-    const LightFrame frame = maps->render(light);
-    maps->bind(program, frame, tracer.offset());
+    frame = maps->render(light);
     log.count("shadow_maps_rendered", frame.faces);
     gpu::finish();
   } else if (light.casts_shadows) {
@@ -100,12 +115,21 @@ void DirectLighting::Impl::shade_light(const Light& light, bool first, const std
     visibility = trace(light, requests, log);
   }
   const StageTimer timer(log, "direct_shading");
-  set_light(light, first);
   for (size_t i = 0; i < requests.size(); ++i) {
-    shade_set(requests[i], visibility.empty() ? nullptr : &visibility[i]);
+    const gpu::Program& program = program_for(requests[i]);
+    set_light(program, light, first);
+    if (light.casts_shadows && maps) maps->bind(program, frame, tracer.offset());
+    shade_set(program, requests[i], visibility.empty() ? nullptr : &visibility[i]);
     log.count("shader_invocations", static_cast<int64_t>(requests[i].samples->size()));
   }
   gpu::finish();
+}
+
+const gpu::Program& DirectLighting::Impl::program_for(const Request& request) {
+  const Variant variant = variant_of(request);
+  const auto found = programs.find(variant);
+  if (found != programs.end()) return found->second;
+  return programs.emplace(variant, compile(variant, settings.shadows)).first->second;
 }
 
 std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const std::vector<Request>& requests,
@@ -119,7 +143,7 @@ std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const s
   return visibility;
 }
 
-void DirectLighting::Impl::set_light(const Light& light, bool first) {
+void DirectLighting::Impl::set_light(const gpu::Program& program, const Light& light, bool first) const {
   const shader::LightParams params = light.params();
   program.set("light_position_type", params.position_type);
   program.set("light_direction_outer", params.direction_outer);
@@ -128,36 +152,26 @@ void DirectLighting::Impl::set_light(const Light& light, bool first) {
   program.set("shadowed", light.casts_shadows ? 1 : 0);
 }
 
-void DirectLighting::Impl::shade_set(const Request& request, const gpu::Buffer* visibility) {
-  const auto size = static_cast<int64_t>(request.samples->size());
-  program.set("eye", request.samples->eye());
-  program.set("all_lobes", request.lobes == Lobes::all ? 1 : 0);
-  program.set("has_shapes", request.samples->has_shapes() ? 1 : 0);
+void DirectLighting::Impl::shade_set(const gpu::Program& program, const Request& request,
+                                     const gpu::Buffer* visibility) const {
+  const Variant variant = variant_of(request);
+  if (variant != Variant::diffuse) program.set("eye", request.samples->eye());
   report.bind_storage(report_binding);
-  for (int64_t begin = 0; begin < size; begin += slab) {
-    const int64_t count = std::min(slab, size - begin);
-    request.samples->bind_range(samples_binding, shapes_binding, begin, count);
-    request.out->bind_storage(radiance_binding, begin * 16, count * 16);
-    if (visibility) visibility->bind_storage(visibility_binding, begin / 8, (count + 31) / 32 * 4);
-    program.set("sample_count", static_cast<uint32_t>(count));
-    program.set("first_sample", static_cast<uint32_t>(begin));
-    program.dispatch_items(count, local_size);
+  for (const GpuSamples::Slab& slab : request.samples->slabs()) {
+    slab.data.bind(samples_unit);
+    if (variant == Variant::all_models) slab.shapes.bind(shapes_unit);
+    request.out->bind_storage(radiance_binding, slab.first * 16, slab.count * 16);
+    if (visibility) visibility->bind_storage(visibility_binding, slab.first / 8, (slab.count + 31) / 32 * 4);
+    program.set("sample_count", static_cast<uint32_t>(slab.count));
+    program.set("first_sample", static_cast<uint32_t>(slab.first));
+    program.dispatch_items(slab.count, local_size);
   }
 }
 
 void DirectLighting::Impl::check_report(StageLog& log) const {
   const std::vector<uint32_t> found = report.download<uint32_t>();
   if (found[0] == 0) return;
-  const std::string sentence = fmt::format(
-      "direct shading: {} radiances were not finite and were replaced by zero, the first at sample {}; a "
-      "light may be "
-      "closer to a surface than floats can tell",
-      found[0], found[1]);
-#ifndef NDEBUG
-  fail("{}", sentence);
-#endif
-  log.count("non_finite_direct_shading", found[0]);
-  log.warn(sentence);
+  report_non_finite_shading(found[0], found[1], log);
 }
 
 }  // namespace relight

@@ -9,13 +9,20 @@
 
 layout(local_size_x = 64) in;
 
-struct PackedSample {  // as gpu_samples.cpp packs it; an invalid sample has zero normals
+// Four texels a sample, as gpu_samples.cpp packs them; an invalid sample has zero normals. Texels, because a software
+// rasteriser reads storage blocks very slowly.
+layout(binding = 1) uniform samplerBuffer samples;
+struct PackedSample {
   vec4 position_exponent;
   vec4 ns_ngx;
   vec4 ngyz_diffuse_rg;
   vec4 diffuse_b_glossy;
 };
-layout(std430, binding = 0) readonly buffer Samples { PackedSample samples[]; };
+PackedSample sample_of(uint i) {
+  int texel = int(i) * 4;
+  return PackedSample(texelFetch(samples, texel), texelFetch(samples, texel + 1), texelFetch(samples, texel + 2),
+                      texelFetch(samples, texel + 3));
+}
 layout(std430, binding = 1) buffer Radiance { vec4 radiance[]; };
 #if !SHADOW_MAPS
 layout(std430, binding = 2) readonly buffer Visibility { uint visibility[]; };  // one bit a sample
@@ -24,18 +31,24 @@ layout(std430, binding = 3) buffer Report {
   uint non_finite_count;
   uint non_finite_first;  // smallest index
 };
-layout(std430, binding = 4) readonly buffer Shapes { BrdfShape shapes[]; };  // only where has_shapes
+
+const BrdfShape no_shape = BrdfShape(0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, 0u);
+#if SHAPES
+layout(binding = 2) uniform usamplerBuffer shapes;  // two texels a sample: the words of BrdfShape
+BrdfShape shape_of(uint i) {
+  uvec4 a = texelFetch(shapes, int(i) * 2), b = texelFetch(shapes, int(i) * 2 + 1);
+  return BrdfShape(uintBitsToFloat(a.x), uintBitsToFloat(a.y), uintBitsToFloat(a.z), a.w, b.x, b.y, b.z, b.w);
+}
+#else
+BrdfShape shape_of(uint i) { return no_shape; }  // all glossy parts are Phong
+#endif
 
 uniform uint sample_count;
 uniform uint first_sample;  // index of samples[0] in its set, for reports
 uniform vec3 eye;
-uniform int all_lobes;
-uniform int has_shapes;  // 0: all glossy parts are Phong
 uniform int first_light;
 uniform int shadowed;
 uniform vec4 light_position_type, light_direction_outer, light_intensity_inner;
-
-const BrdfShape no_shape = BrdfShape(0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, 0u);
 
 float visible(uint i, vec3 position, vec3 ng) {
   if (shadowed == 0) return 1.0;
@@ -47,7 +60,7 @@ float visible(uint i, vec3 position, vec3 ng) {
 }
 
 vec3 reflected(uint i) {
-  PackedSample s = samples[i];
+  PackedSample s = sample_of(i);
   vec3 position = s.position_exponent.xyz;
   vec3 ns = s.ns_ngx.xyz;
   vec3 ng = vec3(s.ns_ngx.w, s.ngyz_diffuse_rg.xy);
@@ -55,12 +68,12 @@ vec3 reflected(uint i) {
   vec3 irradiance = light_irradiance(light, position, ns, ng);
   if (irradiance == vec3(0.0)) return vec3(0.0);
   BrdfParams brdf = BrdfParams(vec3(s.ngyz_diffuse_rg.zw, s.diffuse_b_glossy.x), s.position_exponent.w,
-                               s.diffuse_b_glossy.yzw, no_shape);
-  if (has_shapes != 0) brdf.shape = shapes[i];
+                               s.diffuse_b_glossy.yzw, shape_of(i));
+#if ALL_LOBES
+  vec3 f = brdf_eval(brdf, ns, normalize(eye - position), normalize(light_position_type.xyz - position));
+#else
   vec3 f = brdf_diffuse(brdf);
-  if (all_lobes != 0) {
-    f = brdf_eval(brdf, ns, normalize(eye - position), normalize(light_position_type.xyz - position));
-  }
+#endif
   return f * irradiance * visible(i, position, ng);
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/gpu/buffer.h"
 #include "common/gpu/context.h"
+#include "common/gpu/texel_view.h"
 #include "common/run/stage_log.h"
 #include "common/sampling/surface_sample.h"
 #include "common/scene/scene.h"
@@ -18,22 +20,32 @@ class RayTracer;
 // Surface samples resident on the GPU. Invalid samples shade to black.
 class GpuSamples {
  public:
-  GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye);
+  // slab_samples: the most that one dispatch shades, a multiple of 8192; 0: what the GPU takes.
+  GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye, int64_t slab_samples = 0);
   size_t size() const { return samples_.size(); }
   const std::vector<SurfaceSample>& host() const { return samples_; }
   const glm::vec3& eye() const { return eye_; }
   int64_t bytes() const;
-  // Binds samples [first, first + count) for direct_lighting.glsl: all of a large view may exceed the largest
-  // storage block (128 MiB under llvmpipe). Where all glossy parts are Phong there are no shapes, and
-  // something else is bound in their place.
-  void bind_range(int samples_binding, int shapes_binding, int64_t first, int64_t count) const;
+  // A large view may exceed what one dispatch can write (128 MiB under llvmpipe) or one texel view shows, so
+  // it is shaded slab by slab.
+  struct Slab {
+    int64_t first = 0, count = 0;  // samples
+    gpu::TexelView data, shapes;   // four texels a sample, two texels a sample
+  };
+  const std::vector<Slab>& slabs() const { return slabs_; }
+  bool has_glossy() const { return has_glossy_; }
+  // Where all glossy parts are Phong there are no shapes; the slabs then show something else in their place.
   bool has_shapes() const { return shapes_.bytes() > 0; }
 
  private:
+  Slab slab(int64_t first, int64_t count) const;
+
   std::vector<SurfaceSample> samples_;
   glm::vec3 eye_;
   gpu::Buffer data_;
   gpu::Buffer shapes_;  // BrdfShape of each sample; empty if all are zero
+  std::vector<Slab> slabs_;
+  bool has_glossy_ = false;
 };
 
 enum class Shadows { map, traced };
@@ -47,6 +59,9 @@ struct DirectLightingSettings {
 
 // One shaded channel set: which lobes leave the sample.
 enum class Lobes { diffuse, all };
+
+// What the light of a call is added to.
+enum class Onto { nothing, what_is_there };
 
 class DirectLighting {
  public:
@@ -65,6 +80,8 @@ class DirectLighting {
     gpu::Buffer* out;  // size() x 16 bytes
   };
   void shade(const LightingState& lighting, const std::vector<Request>& requests, StageLog& log);
+  // The same for some lights, added to what the outputs hold or to zero.
+  void shade(std::span<const Light> lights, const std::vector<Request>& requests, Onto onto, StageLog& log);
   int64_t bytes() const;
 
  private:

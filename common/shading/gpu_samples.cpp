@@ -35,32 +35,46 @@ void upload_pieces(const std::vector<SurfaceSample>& samples, const gpu::Buffer&
   }
 }
 
+bool is_glossy(const SurfaceSample& s) { return s.valid && s.glossy != glm::vec3(0.0f); }
+
 bool needs_shape(const SurfaceSample& s) {
-  return s.valid && s.glossy != glm::vec3(0.0f) && shader::brdf_model(s.shape) != shader::brdf_phong;
+  return is_glossy(s) && shader::brdf_model(s.shape) != shader::brdf_phong;
+}
+
+// Samples that one dispatch can write (16 bytes each) and one view can show (four texels each). A multiple of
+// 8192 keeps every range aligned, that of the visibility bits too.
+int64_t largest_slab() {
+  const int64_t fit =
+      std::min(gpu::Context::current()->max_storage_block_bytes() / 16, gpu::TexelView::max_texels() / 4);
+  return std::max<int64_t>(fit / 8192, 1) * 8192;
 }
 
 }  // namespace
 
-GpuSamples::GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye)
+GpuSamples::GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye, int64_t slab_samples)
     : samples_(samples), eye_(eye), data_(static_cast<int64_t>(samples.size() * sizeof(PackedSample))) {
   upload_pieces<PackedSample>(samples, data_, pack);
-  if (std::none_of(samples.begin(), samples.end(), needs_shape)) return;
-  shapes_ = gpu::Buffer(static_cast<int64_t>(samples.size() * sizeof(shader::BrdfShape)));
-  upload_pieces<shader::BrdfShape>(samples, shapes_, [](const SurfaceSample& s) { return s.shape; });
+  has_glossy_ = std::any_of(samples.begin(), samples.end(), is_glossy);
+  if (std::any_of(samples.begin(), samples.end(), needs_shape)) {
+    shapes_ = gpu::Buffer(static_cast<int64_t>(samples.size() * sizeof(shader::BrdfShape)));
+    upload_pieces<shader::BrdfShape>(samples, shapes_, [](const SurfaceSample& s) { return s.shape; });
+  }
+  const auto size = static_cast<int64_t>(samples.size());
+  const int64_t largest = slab_samples > 0 ? slab_samples : largest_slab();
+  for (int64_t first = 0; first < size; first += largest)
+    slabs_.push_back(slab(first, std::min(largest, size - first)));
+}
+
+GpuSamples::Slab GpuSamples::slab(int64_t first, int64_t count) const {
+  using enum gpu::TexelView::Format;
+  constexpr auto data_bytes = static_cast<int64_t>(sizeof(PackedSample)),
+                 shape_bytes = static_cast<int64_t>(sizeof(shader::BrdfShape));
+  gpu::TexelView data(data_, rgba32f, first * data_bytes, count * data_bytes);
+  if (has_shapes())
+    return {first, count, std::move(data), {shapes_, rgba32ui, first * shape_bytes, count * shape_bytes}};
+  return {first, count, std::move(data), {data_, rgba32ui, first * data_bytes, count * data_bytes}};
 }
 
 int64_t GpuSamples::bytes() const { return data_.bytes() + shapes_.bytes(); }
-
-void GpuSamples::bind_range(int samples_binding, int shapes_binding, int64_t first, int64_t count) const {
-  const auto bind = [&](const gpu::Buffer& buffer, int binding, size_t size) {
-    buffer.bind_storage(binding, first * static_cast<int64_t>(size), count * static_cast<int64_t>(size));
-  };
-  bind(data_, samples_binding, sizeof(PackedSample));
-  if (has_shapes()) {
-    bind(shapes_, shapes_binding, sizeof(shader::BrdfShape));
-  } else {
-    bind(data_, shapes_binding, sizeof(PackedSample));
-  }
-}
 
 }  // namespace relight

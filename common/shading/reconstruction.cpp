@@ -1,19 +1,36 @@
 #include "common/shading/reconstruction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "common/gpu/context.h"
 #include "common/gpu/program.h"
+#include "common/gpu/texel_view.h"
 #include "common/run/error.h"
 #include "common/run/stage_log.h"
+#include "common/shading/non_finite_report.h"
 
 namespace relight {
 namespace {
 
 constexpr int local_size = 64;
-constexpr int direct_binding = 0, closest_binding = 1, indirect_binding = 2, direct_image_binding = 3,
-              indirect_image_binding = 4;
+constexpr int direct_image_binding = 3, indirect_image_binding = 4;
+constexpr int direct_unit = 0, closest_unit = 1, indirect_unit = 2;
+
+// The sources of a pixel's four sub-samples side by side: one texel a pixel.
+std::vector<glm::uvec4> closest_by_pixel(const DeepFrameBuffer& buffer) {
+  const std::vector<uint32_t> closest = closest_view_samples(buffer);
+  const auto w = static_cast<size_t>(buffer.view.width), h = static_cast<size_t>(buffer.view.height);
+  std::vector<glm::uvec4> pixels(w * h);
+  for (size_t y = 0; y < h; ++y) {
+    for (size_t x = 0; x < w; ++x) {
+      const size_t top = 4 * y * w + 2 * x, bottom = top + 2 * w;
+      pixels[y * w + x] = {closest[top], closest[top + 1], closest[bottom], closest[bottom + 1]};
+    }
+  }
+  return pixels;
+}
 
 // Downloads vec4 pixels; a value that is not finite is counted and replaced by zero.
 Image download_image(const gpu::Buffer& buffer, int width, int height, const char* which, StageLog& log) {
@@ -29,18 +46,7 @@ Image download_image(const gpu::Buffer& buffer, int width, int height, const cha
       first_bad = i;
     }
   }
-  if (bad > 0) {
-    const auto w = static_cast<size_t>(width);
-    const std::string sentence = fmt::format(
-        "reconstruction: {} pixels of the {} image were not finite and were replaced by zero, the first "
-        "at x = {}, y = {}",
-        bad, which, first_bad % w, first_bad / w);
-#ifndef NDEBUG
-    fail("{}", sentence);
-#endif
-    log.count("non_finite_reconstruction", bad);
-    log.warn(sentence);
-  }
+  if (bad > 0) report_non_finite_pixels(which, bad, first_bad, static_cast<size_t>(width), log);
   return image;
 }
 
@@ -49,7 +55,7 @@ Image download_image(const gpu::Buffer& buffer, int width, int height, const cha
 Reconstruction::Reconstruction(const DeepFrameBuffer& buffer)
     : width_(buffer.view.width),
       height_(buffer.view.height),
-      closest_(gpu::Buffer::from(closest_view_samples(buffer))),
+      closest_(gpu::Buffer::from(closest_by_pixel(buffer))),
       program_(gpu::Program::compute("common/shading/reconstruction.glsl")),
       direct_image_(int64_t{16} * width_ * height_),
       indirect_image_(int64_t{16} * width_ * height_) {
@@ -69,15 +75,22 @@ Reconstruction::Images Reconstruction::resolve(const gpu::Buffer& direct, const 
     throw std::logic_error("Reconstruction::resolve: needs a vec4 a sub-sample and a vec4 a pixel");
   }
   const StageTimer timer(log, "reconstruction");
-  // Rows that one dispatch can bind; a multiple of 16 keeps every range aligned.
-  const int64_t rows_that_fit = gpu::Context::current()->max_storage_block_bytes() / (64 * w) / 16 * 16;
+  using gpu::TexelView;
+  using enum TexelView::Format;
+  // Rows whose sub-samples one view shows; a multiple of 16 keeps every range aligned.
+  const int64_t rows_that_fit =
+      std::min(gpu::Context::current()->max_storage_block_bytes() / 16, TexelView::max_texels() / 4) / w /
+      16 * 16;
   const int64_t slab = std::max<int64_t>(rows_that_fit, 16);
   program_.set("image_width", static_cast<uint32_t>(w));
-  indirect.bind_storage(indirect_binding);
+  const TexelView all_indirect(indirect, rgba32f, 0, 16 * w * h);
+  all_indirect.bind(indirect_unit);
   for (int64_t row = 0; row < h; row += slab) {
     const int64_t pixels = std::min(slab, h - row) * w, first = row * w;
-    direct.bind_storage(direct_binding, 64 * first, 64 * pixels);
-    closest_.bind_storage(closest_binding, 16 * first, 16 * pixels);
+    const TexelView direct_rows(direct, rgba32f, 64 * first, 64 * pixels);
+    const TexelView closest_rows(closest_, rgba32ui, 16 * first, 16 * pixels);
+    direct_rows.bind(direct_unit);
+    closest_rows.bind(closest_unit);
     direct_image_.bind_storage(direct_image_binding, 16 * first, 16 * pixels);
     indirect_image_.bind_storage(indirect_image_binding, 16 * first, 16 * pixels);
     program_.set("pixel_count", static_cast<uint32_t>(pixels));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "experiments/bench/bench.h"
+#include "experiments/bench/product_bench.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
 
@@ -26,9 +27,20 @@ void add_bench_command(CLI::App& app, Action& action) {
   command->add_option("--estimator", options->estimator, "How paths are sampled")
       ->type_name("next_event|light_vertex")
       ->capture_default_str();
-  command->callback([&action, options] {
-    action = [options] {
-      fmt::print("{}", run_bench(*options));
+  const auto products = std::make_shared<ProductBenchOptions>();
+  const auto bench_products = std::make_shared<bool>(false);
+  command->add_flag("--products", *bench_products,
+                    "Instead: the forms of direct_to_indirect's sparse product, side by side");
+  command
+      ->add_option("--set", products->settings,
+                   "With --products: a knob of direct_to_indirect; may be repeated")
+      ->type_name("METHOD.KNOB=VALUE")
+      ->allow_extra_args(false);
+  command->callback([&action, options, products, bench_products] {
+    action = [options, products, bench_products] {
+      products->session = options->session;
+      products->repeats = options->repeats;
+      fmt::print("{}", *bench_products ? run_product_bench(*products) : run_bench(*options));
       return 0;
     };
   });

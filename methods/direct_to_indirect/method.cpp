@@ -4,6 +4,7 @@
 #include "methods/direct_to_indirect/knobs.h"
 #include "methods/direct_to_indirect/precompute.h"
 #include "methods/direct_to_indirect/prepared_transfer.h"
+#include "methods/direct_to_indirect/prepared_transfer_cpu.h"
 
 namespace relight {
 namespace direct_to_indirect {
@@ -29,6 +30,8 @@ class DirectToIndirect : public Method {
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);
     StageTimer timer(context.log, "upload");
+    if (context.knobs.choice("device") == "cpu")
+      return make_prepared_transfer_cpu(context, std::move(artefact));
     return make_prepared_transfer(context, std::move(artefact));
   }
 };

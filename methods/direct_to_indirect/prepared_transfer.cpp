@@ -1,43 +1,63 @@
 #include "methods/direct_to_indirect/prepared_transfer.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
-#include "common/linalg/sparse_product_gpu.h"
-#include "common/shading/direct_lighting.h"
+#include "common/linalg/product_list.h"
+#include "common/shading/cached_direct_light.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
 #include "methods/direct_to_indirect/multi_bounce_light.h"
+#include "methods/direct_to_indirect/transfer_settings.h"
 
 namespace relight::direct_to_indirect {
 namespace {
 
-std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer) {
-  std::vector<glm::vec3> kd(buffer.indirect.size());
-  std::transform(buffer.indirect.begin(), buffer.indirect.end(), kd.begin(),
-                 [](const SurfaceSample& s) { return s.diffuse; });
-  return kd;
-}
+// Direct light on the gather samples and on the view's sub-samples, a vec4 each.
+struct DirectLight {
+  gpu::Buffer gather, view;
+
+  int64_t bytes() const { return gather.bytes() + view.bytes(); }
+};
+
+// What is lit, and by what; see CachedDirectLight.
+struct LitSamples {
+  GpuSamples gather, view;
+  DirectLighting lighting;
+
+  LitSamples(const PrepareContext& context, const GatherCloud& cloud)
+      : gather(cloud.samples, context.buffer.view.camera.eye),
+        view(context.buffer.direct, context.buffer.view.camera.eye),
+        lighting(context.gpu, context.scene, context.tracer,
+                 {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
+                  static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
+
+  DirectLight make() const {
+    return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
+            gpu::Buffer(static_cast<int64_t>(view.size()) * 16)};
+  }
+  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
+    lighting.shade(lights, {{&gather, Lobes::diffuse, &out.gather}, {&view, Lobes::all, &out.view}}, onto,
+                   log);
+  }
+  void copy(const DirectLight& from, DirectLight& to) const {
+    to.gather.copy_from(from.gather);
+    to.view.copy_from(from.view);
+  }
+};
 
 class PreparedTransfer : public Prepared {
  public:
   PreparedTransfer(const PrepareContext& context, Artefact artefact)
       : matrix_(std::move(artefact.final_gather)),
         kd_(diffuse_albedo(context.buffer)),
-        on_cpu_(context.knobs.choice("device") == "cpu"),
-        gather_(artefact.cloud.samples, context.buffer.view.camera.eye),
-        view_(context.buffer.direct, context.buffer.view.camera.eye),
-        lighting_(context.gpu, context.scene, context.tracer,
-                  {context.knobs.choice("shadows") == "map" ? Shadows::map : Shadows::traced,
-                   static_cast<int>(context.knobs.integer("shadow_map_size"))}),
+        oracle_(context.knobs.choice("device") == "oracle"),
+        samples_(context, artefact.cloud),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
-        product_(matrix_, kd_, context.gpu.max_storage_block_bytes()),
         reconstruction_(context.buffer),
-        gather_direct_(static_cast<int64_t>(gather_.size()) * 16),
-        view_direct_(static_cast<int64_t>(view_.size()) * 16),
+        direct_(samples_.make()),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
     if (artefact.multi_bounce.bounces > 1) {
       report_share_beyond(artefact.multi_bounce, context.log);
@@ -47,35 +67,44 @@ class PreparedTransfer : public Prepared {
       context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    context.log.bytes("final_gather_matrix", matrix_.bytes());
-    context.log.bytes("final_gather_matrix_gpu", product_.bytes());
-    context.log.bytes("gather_samples", gather_.bytes());
-    context.log.bytes("view_samples", view_.bytes());
-    context.log.bytes("lighting", lighting_.bytes());
-    context.log.bytes("partial_results",
-                      gather_direct_.bytes() + view_direct_.bytes() + indirect_.bytes() + haar_.bytes());
+    make_product(context);
+    context.log.bytes("gather_samples", samples_.gather.bytes());
+    context.log.bytes("view_samples", samples_.view.bytes());
+    context.log.bytes("lighting", samples_.lighting.bytes());
+    context.log.bytes("partial_results", direct_.bytes() + indirect_.bytes() + haar_.bytes());
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
-    lighting_.shade(lighting,
-                    {{&gather_, Lobes::diffuse, &gather_direct_}, {&view_, Lobes::all, &view_direct_}}, log);
-    if (on_cpu_)
-      transfer_on_cpu(log);
+    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    if (oracle_)
+      transfer_in_double(direct.gather, log);
     else
-      transfer_on_gpu(log);
-    Reconstruction::Images images = reconstruction_.resolve(view_direct_, indirect_, log);
+      transfer_on_gpu(direct.gather, log);
+    Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
     Relit out{std::move(images.direct), std::move(images.indirect), {}};
     out.total = out.direct;
     for (size_t i = 0; i < out.total.pixels.size(); ++i) out.total.pixels[i] += out.indirect.pixels[i];
     return out;
   }
+  void forget() override { direct_.forget(); }
 
  private:
-  void transfer_on_gpu(StageLog& log) {
-    const gpu::Buffer* light = &gather_direct_;
+  // Makes the product and lets the matrix go, of which only the oracle needs the floats.
+  void make_product(const PrepareContext& context) {
+    context.log.bytes("final_gather_matrix", matrix_.bytes());
+    if (oracle_) return;
+    const View& view = context.buffer.view;
+    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, {view.width, view.height},
+                                product_settings(context.knobs), context.gpu.max_storage_block_bytes());
+    matrix_ = {};
+    log_product(product_->statistics(), context.log);
+  }
+
+  void transfer_on_gpu(const gpu::Buffer& gather_direct, StageLog& log) {
+    const gpu::Buffer* light = &gather_direct;
     if (bounces_) {
       StageTimer timer(log, "multi_bounce");
-      light = &bounces_->with_bounces(gather_direct_, haar_);
+      light = &bounces_->with_bounces(gather_direct, haar_);
       gpu::finish();
     }
     {
@@ -83,17 +112,22 @@ class PreparedTransfer : public Prepared {
       haar_.forward(*light);
       gpu::finish();
     }
-    StageTimer timer(log, "transfer");
-    product_.multiply(haar_.coefficients(), indirect_);
-    gpu::finish();
+    {
+      StageTimer timer(log, "transfer");
+      product_->multiply(haar_.coefficients(), indirect_);
+      gpu::finish();
+    }
+    const CullStatistics culled = product_->culled();
+    log.count("transfer_blocks_culled", culled.blocks);
+    log.count("transfer_weights_culled", culled.weights);
   }
 
   // The double-precision twin: the oracle of the GPU path.
-  void transfer_on_cpu(StageLog& log) {
+  void transfer_in_double(const gpu::Buffer& gather_direct, StageLog& log) {
     std::vector<glm::dvec3> g;
     {
       StageTimer timer(log, "wavelet_transform");
-      for (const glm::vec4& v : gather_direct_.download<glm::vec4>()) g.emplace_back(v);
+      for (const glm::vec4& v : gather_direct.download<glm::vec4>()) g.emplace_back(v);
     }
     if (bounces_) {
       StageTimer timer(log, "multi_bounce");
@@ -110,16 +144,16 @@ class PreparedTransfer : public Prepared {
     indirect_.upload(0, indirect_.bytes(), v.data());
   }
 
-  SparseRows matrix_;
+  SparseRows matrix_;  // empty once a product is made of it
   std::vector<glm::vec3> kd_;
-  bool on_cpu_;
-  GpuSamples gather_, view_;
-  DirectLighting lighting_;
+  bool oracle_;
+  LitSamples samples_;
   wavelet::HaarGpu haar_;
-  SparseProductGpu product_;
   Reconstruction reconstruction_;
   std::optional<MultiBounceLight> bounces_;  // none with one bounce
-  gpu::Buffer gather_direct_, view_direct_, indirect_;
+  CachedDirectLight<DirectLight> direct_;
+  gpu::Buffer indirect_;
+  std::unique_ptr<TransferProductGpu> product_;  // none for the oracle
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "experiments/compare/compare.h"
 #include "experiments/compare/image_files.h"
 #include "fake_methods.h"
+#include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "program.h"
 
 namespace relight::test {
@@ -84,6 +85,20 @@ TEST(CompareRunner, AThrowingMethodLeavesARecordAndTheOthersRun) {
   const std::string page = read_text(comparison.folder / "out/index.html");
   EXPECT_NE(page.find("broken on purpose"), std::string::npos);
   EXPECT_NE(summary_text(records).find("FAILED: relight: broken on purpose"), std::string::npos);
+}
+
+// Red if a repeat profits from the light that the one before it left behind: it would report the time of doing
+// nothing (tried: without forget() before each repeat, lights_cached is 1).
+TEST(CompareRunner, EveryTimedRelightShadesItsLightsAfresh) {
+  Comparison comparison;
+  comparison.add(make_direct_to_indirect());
+  comparison.options.settings = {"direct_to_indirect.gather_samples=1024", "direct_to_indirect.device=cpu"};
+  comparison.options.repeats = 4;
+  const RunRecord record = comparison.run().front();
+  ASSERT_TRUE(record.failed_stages.empty()) << record.failed_stages.front();
+  EXPECT_EQ(record.counters.at("lights_shaded"), 1);
+  EXPECT_EQ(record.counters.at("lights_cached"), 0);
+  EXPECT_GT(record.counters.at("shadow_rays"), 0);
 }
 
 // Red if NaN is averaged away, or reported without saying where.

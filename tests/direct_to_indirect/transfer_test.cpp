@@ -50,15 +50,20 @@ double relative_difference(const Image& a, const Image& b) {
 const Light lamp = tiny::omni({0.3f, 0.6f, 0.4f}, glm::vec3(2.0f, 1.5f, 1.0f));
 const Light beam = tiny::spot({-0.4f, 0.9f, 0.5f}, {0.2f, -1.0f, -0.1f}, 15.0f, 20.0f, glm::vec3(3.0f));
 
-// The GPU sums about 100 products and 5 Haar levels in float, its twin in double: they differ by rounding
-// only. The bound is 100 roundings of 2^-24. Red if GLSL and C++ read different coefficients, rows or
-// albedos.
-TEST(Transfer, GpuAgreesWithItsDoublePrecisionTwin) {
+// The products sum about 100 products and 5 Haar levels in float, the oracle in double: they differ by
+// rounding only. The bound is 100 roundings of 2^-24. Red if GLSL and C++ read different coefficients, rows
+// or albedos.
+TEST(Transfer, EveryProductAgreesWithTheDoublePrecisionOracle) {
   Bench bench;
   for (const Light& light : {lamp, beam}) {
-    const Relit gpu = bench.relit(tiny::lighting({light}), {{"device", "gpu"}});
-    const Relit cpu = bench.relit(tiny::lighting({light}), {{"device", "cpu"}});
-    EXPECT_LT(relative_difference(gpu.indirect, cpu.indirect), 6e-6);
+    const Relit oracle = bench.relit(tiny::lighting({light}), {{"device", "oracle"}, {"shadows", "traced"}});
+    for (const auto& [device, product] :
+         {std::pair{"gpu", "rows"}, {"gpu", "tiles"}, {"gpu", "quads"}, {"cpu", "rows"}, {"cpu", "tiles"}}) {
+      const Relit relit = bench.relit(
+          tiny::lighting({light}),
+          {{"device", device}, {"product", product}, {"weights", "float32"}, {"shadows", "traced"}});
+      EXPECT_LT(relative_difference(relit.indirect, oracle.indirect), 6e-6) << device << " " << product;
+    }
   }
 }
 

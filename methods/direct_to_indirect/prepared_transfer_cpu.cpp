@@ -1,0 +1,117 @@
+#include "methods/direct_to_indirect/prepared_transfer_cpu.h"
+
+#include <optional>
+
+#include "common/linalg/product_list.h"
+#include "common/run/error.h"
+#include "common/shading/block_lighting.h"
+#include "common/shading/cached_direct_light.h"
+#include "common/shading/fused_reconstruction.h"
+#include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
+#include "methods/direct_to_indirect/transfer_settings.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+// Direct light on the gather samples and, filtered to pixels, on the view.
+struct DirectLight {
+  std::vector<glm::vec4> gather, view;
+
+  int64_t bytes() const { return static_cast<int64_t>((gather.size() + view.size()) * sizeof(glm::vec4)); }
+};
+
+// What is lit, and by what; see CachedDirectLight.
+struct LitSamples {
+  SampleBlocks gather, view;
+  BlockLighting lighting;
+
+  LitSamples(const PrepareContext& context, const GatherCloud& cloud)
+      : gather(cloud.samples, sequential_order(cloud.samples.size()), context.buffer.view.camera.eye),
+        view(context.buffer.direct, pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
+             context.buffer.view.camera.eye),
+        lighting(context.tracer) {}
+
+  DirectLight make() const {
+    return {std::vector<glm::vec4>(gather.count() * block_lanes),
+            std::vector<glm::vec4>(view.count() * block_lanes / 4)};
+  }
+  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
+    lighting.shade(lights, {{&gather, Lobes::diffuse, 1, out.gather}, {&view, Lobes::all, 4, out.view}}, onto,
+                   log);
+  }
+  void copy(const DirectLight& from, DirectLight& to) const { to = from; }
+};
+
+class PreparedTransferCpu : public Prepared {
+ public:
+  PreparedTransferCpu(const PrepareContext& context, Artefact artefact)
+      : samples_(context, artefact.cloud),
+        haar_(artefact.cloud.samples.size()),
+        product_(make_product(context, artefact.final_gather)),
+        reconstruction_(context.buffer),
+        direct_(samples_.make()),
+        coefficients_(artefact.cloud.samples.size()),
+        indirect_(context.buffer.indirect.size()) {
+    if (artefact.multi_bounce.bounces > 1) {
+      report_share_beyond(artefact.multi_bounce, context.log);
+      bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud);
+      context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
+      context.log.bytes("multi_bounce_light", bounces_->result_bytes());
+    }
+    context.log.bytes("final_gather_matrix", artefact.final_gather.bytes());
+    log_product(product_->statistics(), context.log);
+    context.log.bytes("gather_samples", samples_.gather.bytes());
+    context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
+    context.log.bytes("partial_results", direct_.bytes() + haar_.bytes() +
+                                             static_cast<int64_t>((coefficients_.size() + indirect_.size()) *
+                                                                  sizeof(glm::vec4)));
+  }
+
+  Relit relight(const LightingState& lighting, StageLog& log) override {
+    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    std::span<const glm::vec4> light = std::span(direct.gather).first(coefficients_.size());
+    if (bounces_) {
+      const StageTimer timer(log, "multi_bounce");
+      light = bounces_->with_bounces(light);
+    }
+    {
+      const StageTimer timer(log, "wavelet_transform");
+      haar_.forward(light, coefficients_);
+    }
+    {
+      const StageTimer timer(log, "transfer");
+      product_->multiply(coefficients_, indirect_);
+    }
+    FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
+    return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};
+  }
+
+  void forget() override { direct_.forget(); }
+
+ private:
+  static std::unique_ptr<TransferProduct> make_product(const PrepareContext& context,
+                                                       const SparseRows& matrix) {
+    const View& view = context.buffer.view;
+    return make_product_cpu(context.knobs.choice("product"), matrix, diffuse_albedo(context.buffer),
+                            {view.width, view.height}, product_settings(context.knobs));
+  }
+
+  LitSamples samples_;
+  wavelet::HaarCpu haar_;
+  std::unique_ptr<TransferProduct> product_;
+  FusedReconstruction reconstruction_;
+  std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
+  CachedDirectLight<DirectLight> direct_;
+  std::vector<glm::vec4> coefficients_, indirect_;
+};
+
+}  // namespace
+
+std::unique_ptr<Prepared> make_prepared_transfer_cpu(const PrepareContext& context, Artefact artefact) {
+  if (context.knobs.choice("shadows") == "map")
+    fail("direct_to_indirect.shadows: 'map' needs the GPU; valid with device=cpu: auto, traced");
+  return std::make_unique<PreparedTransferCpu>(context, std::move(artefact));
+}
+
+}  // namespace relight::direct_to_indirect

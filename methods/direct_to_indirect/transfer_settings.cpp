@@ -1,0 +1,31 @@
+#include "methods/direct_to_indirect/transfer_settings.h"
+
+#include <algorithm>
+
+namespace relight::direct_to_indirect {
+
+std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer) {
+  std::vector<glm::vec3> kd(buffer.indirect.size());
+  std::transform(buffer.indirect.begin(), buffer.indirect.end(), kd.begin(),
+                 [](const SurfaceSample& s) { return s.diffuse; });
+  return kd;
+}
+
+ProductSettings product_settings(const KnobValues& knobs) {
+  ProductSettings settings;
+  settings.weights = weight_format_from_string(knobs.choice("weights"));
+  settings.partial_results =
+      knobs.choice("partial_results") == "float16" ? PartialResults::float16 : PartialResults::float32;
+  settings.cull_epsilon = static_cast<float>(knobs.real("cull_epsilon"));
+  settings.block_waste = static_cast<float>(knobs.real("block_waste"));
+  return settings;
+}
+
+void log_product(const ProductStatistics& statistics, StageLog& log) {
+  log.bytes("transfer_product", statistics.bytes);
+  log.count("transfer_weights_stored", statistics.stored);
+  log.count("transfer_blocks", statistics.blocks);
+  log.count("transfer_atlases", statistics.atlases);
+}
+
+}  // namespace relight::direct_to_indirect

@@ -1,0 +1,22 @@
+// What both devices read from the knobs and the view to make the transfer product of equation 7.
+#pragma once
+
+#include <vector>
+
+#include "common/linalg/transfer_product.h"
+#include "common/run/knobs.h"
+#include "common/run/stage_log.h"
+#include "common/sampling/deep_frame_buffer.h"
+
+namespace relight::direct_to_indirect {
+
+// k_d of equation 7: one a pixel.
+std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer);
+
+// Knobs weights, partial_results, cull_epsilon and block_waste.
+ProductSettings product_settings(const KnobValues& knobs);
+
+// Bytes transfer_product, counters transfer_weights_stored, transfer_blocks and transfer_atlases.
+void log_product(const ProductStatistics& statistics, StageLog& log);
+
+}  // namespace relight::direct_to_indirect

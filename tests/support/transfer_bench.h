@@ -1,0 +1,58 @@
+// Direct-to-indirect transfer on a small view of any scene, for tests that relight it again and again.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/gpu/context.h"
+#include "common/run/artefact_cache.h"
+#include "common/tracing/ray_tracer.h"
+#include "methods/direct_to_indirect/direct_to_indirect.h"
+
+namespace relight::test {
+
+class TransferBench {
+ public:
+  using Knobs = std::vector<std::pair<std::string, std::string>>;
+
+  explicit TransferBench(Scene s, int width = 60, int height = 45)
+      : scene(std::move(s)),
+        tracer(scene),
+        buffer(make_deep_frame_buffer(scene, tracer, {scene.camera, width, height})) {}
+
+  // 1024 gather samples unless the knobs say otherwise.
+  std::unique_ptr<Prepared> prepare(const Knobs& knobs) {
+    KnobValues values(method->knobs());
+    values.set("gather_samples", "1024");
+    for (const auto& [name, value] : knobs) values.set(name, value);
+    StageLog log;
+    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log});
+  }
+
+  Scene scene;
+  RayTracer tracer;
+  DeepFrameBuffer buffer;
+  std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
+  std::unique_ptr<Method> method = make_direct_to_indirect();
+  ArtefactCache cache{{}, false};
+  Progress progress{true};
+};
+
+inline double norm(const Image& image) {
+  double sum = 0.0;
+  for (const glm::vec3& p : image.pixels) sum += glm::dot(glm::dvec3(p), glm::dvec3(p));
+  return std::sqrt(sum);
+}
+
+// |a - b|_2 / |b|_2; 0 if both are black. NaN if a value is.
+inline double relative_difference(const Image& a, const Image& b) {
+  Image difference = a;
+  for (size_t i = 0; i < a.pixels.size(); ++i) difference.pixels[i] -= b.pixels[i];
+  const double d = norm(difference);
+  return d == 0.0 ? 0.0 : d / norm(b);
+}
+
+}  // namespace relight::test
