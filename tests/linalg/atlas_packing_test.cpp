@@ -144,7 +144,9 @@ TEST(BlockQuantisation, KeepsWeightsToHalfAStepAndZerosExactly) {
         const float got = restored(w, q, format);
         EXPECT_NEAR(got, w, q.bound() * 1.0001f + 1e-6f * std::abs(w))
             << "block " << b << ", " << to_string(format);
-        if (w == 0.0f) EXPECT_EQ(got, 0.0f) << "block " << b << ", " << to_string(format);
+        if (w == 0.0f) {
+          EXPECT_EQ(got, 0.0f) << "block " << b << ", " << to_string(format);
+        }
       }
     }
     // The step is what 256 or 65,536 levels can do.

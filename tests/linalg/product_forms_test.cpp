@@ -28,7 +28,7 @@ std::unique_ptr<TransferProduct> make(const Form& form, const SparseRows& m, Pic
                                       const ProductSettings& settings) {
   const std::vector<glm::vec3> scale = check::random_scale(m.rows());
   if (form.device == std::string("cpu")) return make_product_cpu(form.name, m, scale, shape, settings);
-  return make_product_gpu(form.name, m, scale, shape, settings, 1 << 15);
+  return make_product_gpu(form.name, m, scale, shape, settings, 1 << 18);
 }
 
 std::vector<glm::vec4> multiply(const TransferProduct& product, size_t rows,
@@ -142,13 +142,17 @@ TEST(ProductCulling, EpsilonZeroSkipsOnlyWhatGivesNothingAndLargerOnesLoseWhatTh
       EXPECT_GT(culled.blocks, skipped) << "epsilon " << epsilon;
       EXPECT_LE(culled.weights, product->statistics().stored);
       skipped = culled.blocks;
-      if (epsilon == 0.0f) EXPECT_EQ(error, 0.0);
+      if (epsilon == 0.0f) {
+        EXPECT_EQ(error, 0.0);
+      }
       // Each skipped block has at most norm epsilon x sqrt(all); norms add. (A channel's scale can exceed the
       // root mean square of all three by sqrt(3).)
       EXPECT_LE(
           std::sqrt(error),
           std::sqrt(3.0 * all) * static_cast<double>(epsilon) * static_cast<double>(culled.blocks) + 1e-12);
-      if (epsilon == 1.0f) EXPECT_EQ(culled.blocks, product->statistics().blocks);
+      if (epsilon == 1.0f) {
+        EXPECT_EQ(culled.blocks, product->statistics().blocks);
+      }
     }
   }
 }
@@ -169,7 +173,9 @@ TEST(ProductCulling, ALightThatIsNotFiniteCullsNothingAndReachesThePicture) {
       EXPECT_EQ(product->culled().blocks, 0) << form << " " << bad;
       for (size_t r = 0; r < m.rows(); ++r)
         for (const SparseEntry& e : m.row(r))
-          if (e.column == 90 && e.value != 0.0f) EXPECT_FALSE(std::isfinite(y[r].y)) << form << " " << bad;
+          if (e.column == 90 && e.value != 0.0f) {
+            EXPECT_FALSE(std::isfinite(y[r].y)) << form << " " << bad;
+          }
     }
   }
 }
@@ -191,7 +197,9 @@ TEST(ProductForms, UnknownAndImpossibleOnesFailWithTheValidOnes) {
     SparseRows bad = m;
     bad.entries[2].value = std::numeric_limits<float>::infinity();
     EXPECT_THROW(make_product_gpu(form, bad, scale, {4, 3}, {}, 1 << 20), Error) << form;
-    if (form != "rows") EXPECT_THROW(make_product_gpu(form, m, scale, {5, 2}, {}, 1 << 20), Error) << form;
+    if (form != "rows") {
+      EXPECT_THROW(make_product_gpu(form, m, scale, {5, 2}, {}, 1 << 20), Error) << form;
+    }
   }
 }
 
