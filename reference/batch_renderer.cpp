@@ -32,9 +32,11 @@ void for_each_row(int rows, Function function) {
 
 // Pixels x0 .. x0+3, y0 .. y0+3; those outside the image stay invalid.
 struct BatchRenderer::Tile {
-  EyeTile eye[4];  // by sub-pixel: visible points of the 16 pixels
+  int x0 = 0, y0 = 0;
   int paths = 1;
   uint64_t scramble = 0, pixel_scramble[16];
+  EyeTile eye[4];                 // by sub-pixel: visible points of the 16 pixels
+  uint32_t made = 0;              // bit i: eye[i] has been made
   std::vector<glm::dvec3> sum;    // of each class, pixel by pixel
   std::vector<glm::vec3> values;  // scratch: one sample of the same
   double squares = 0.0;           // of the mean channel, over all pixels
@@ -63,29 +65,40 @@ int& BatchRenderer::paths_of(int x0, int y0) {
       .paths[static_cast<size_t>(y0 / side) * static_cast<size_t>(tiles_x_) + static_cast<size_t>(x0 / side)];
 }
 
-BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence) const {
+BatchRenderer::Tile BatchRenderer::make_tile(int x0, int y0, uint64_t sequence, int paths) const {
   const View& view = buffer_.view;
   const auto number = [&](int x, int y) {
     return static_cast<uint64_t>(y) * static_cast<uint64_t>(view.width) + static_cast<uint64_t>(x);
   };
   Tile tile;
+  tile.x0 = x0, tile.y0 = y0, tile.paths = paths;
   tile.sum.assign(16 * sampler_.classes().count(), glm::dvec3(0.0));
   tile.values.resize(tile.sum.size());
   tile.scramble = random_bits(settings_.seed, tile_stream, number(x0, y0), sequence);
-  for (int i = 0; i < 16; ++i) {
-    const int x = x0 + i % side, y = y0 + i / side;
-    if (x >= view.width || y >= view.height) continue;
-    tile.pixel_scramble[i] = random_bits(settings_.seed, pixel_stream, number(x, y), sequence);
-    for (int sub = 0; sub < 4; ++sub) {
-      const size_t row = static_cast<size_t>(2 * y + sub / 2), column = static_cast<size_t>(2 * x + sub % 2);
-      const SurfaceSample& x1 = buffer_.direct[row * 2 * static_cast<size_t>(view.width) + column];
-      if (!x1.valid) continue;
-      tile.eye[sub].valid |= 1u << i;
-      tile.eye[sub].vertex[i] = sampler_.eye_vertex(x1, view.camera.eye);
-      tile.eye[sub].position[i] = tracer_.offset_point(x1.position, x1.geometric_normal);
-    }
-  }
+  for (int i = 0; i < 16; ++i)
+    tile.pixel_scramble[i] =
+        random_bits(settings_.seed, pixel_stream, number(x0 + i % side, y0 + i / side), sequence);
   return tile;
+}
+
+// Visible points of one sub-pixel, made when the first sample wants them: a batch of few samples doesn't
+// visit all.
+const EyeTile& BatchRenderer::eye_tile(Tile& tile, uint32_t sub) const {
+  const View& view = buffer_.view;
+  EyeTile& eye = tile.eye[sub];
+  if ((tile.made >> sub) & 1u) return eye;
+  tile.made |= 1u << sub;
+  eye.paths = static_cast<float>(tile.paths);
+  for (uint32_t i = 0; i < 16; ++i) {
+    const int x = tile.x0 + static_cast<int>(i) % side, y = tile.y0 + static_cast<int>(i) / side;
+    if (x >= view.width || y >= view.height) continue;
+    const size_t row = static_cast<size_t>(2 * y) + sub / 2, column = static_cast<size_t>(2 * x) + sub % 2;
+    const SurfaceSample& x1 = buffer_.direct[row * 2 * static_cast<size_t>(view.width) + column];
+    if (x1.valid)
+      eye.set(i, sampler_.eye_vertex(x1, view.camera.eye),
+              tracer_.offset_point(x1.position, x1.geometric_normal));
+  }
+  return eye;
 }
 
 void BatchRenderer::plan(int samples) {
@@ -94,7 +107,7 @@ void BatchRenderer::plan(int samples) {
   for_each_row(tiles_y_, [&](int row) {
     Counts counts;
     for (int column = 0; column < tiles_x_; ++column) {
-      Tile tile = make_tile(column * side, row * side, planning);
+      Tile tile = make_tile(column * side, row * side, planning, 1);
       for (int s = 0; s < samples; ++s) sample_tile(tile, static_cast<uint32_t>(s), counts);
       double variance = tile.squares / samples;
       const size_t classes = sampler_.classes().count();
@@ -134,10 +147,7 @@ void BatchRenderer::render_row(int row, int batch) {
 }
 
 void BatchRenderer::render_tile(int x0, int y0, int batch, Counts& counts) {
-  Tile tile = make_tile(x0, y0, settings_.one_sequence ? 0 : static_cast<uint64_t>(batch));
-  tile.paths = paths_of(x0, y0);
-  for (EyeTile& eye : tile.eye)
-    for (EyeVertex& vertex : eye.vertex) vertex.paths = static_cast<float>(tile.paths);
+  Tile tile = make_tile(x0, y0, settings_.one_sequence ? 0 : static_cast<uint64_t>(batch), paths_of(x0, y0));
   const uint32_t count = static_cast<uint32_t>(samples_);
   const uint32_t first = settings_.one_sequence ? static_cast<uint32_t>(batch) * count : 0u;
   for (uint32_t s = first; s < first + count; ++s) sample_tile(tile, s, counts);
@@ -161,34 +171,30 @@ void BatchRenderer::render_tile(int x0, int y0, int batch, Counts& counts) {
 // All sub-pixels of a pixel share one Sobol sequence, so that the pixel as a whole is stratified; a random
 // rotation makes batches of fewer than four samples visit every sub-pixel with the same probability.
 void BatchRenderer::sample_tile(Tile& tile, uint32_t index, Counts& counts) const {
-  const EyeTile& eye = tile.eye[(index + static_cast<uint32_t>(tile.scramble >> 62)) & 3u];
+  const EyeTile& eye = eye_tile(tile, (index + static_cast<uint32_t>(tile.scramble >> 62)) & 3u);
   if (eye.valid == 0) return;
-  constexpr int connections = PathSampler::connections_at_eye;
+  constexpr uint32_t connections = PathSampler::connections_at_eye;
   const LightConnector& connector = sampler_.connector();
   std::fill(tile.values.begin(), tile.values.end(), glm::vec3(0.0f));
-  const size_t classes = sampler_.classes().count();
-  LightVertex light;
+  LightVertex light[connections];
   if (sampler_.uses_light_vertices()) {
-    const uint32_t first = index * static_cast<uint32_t>(connections);
-    light = connector.trace({tile.scramble, first}, counts.rays);
-    for (int c = 0; sampler_.connects_at_eye() && c < connections; ++c) {
-      const LightVertex y =
-          c == 0 ? light : connector.trace({tile.scramble, first + static_cast<uint32_t>(c)}, counts.rays);
-      if (y.surface.valid)
-        connector.connect(eye, y, connections, sampler_.classes(), tile.values.data(), counts.rays);
-    }
+    const size_t vertices = sampler_.connects_at_eye() ? connections : 1;
+    connector.trace({tile.scramble, index * connections}, {light, vertices}, counts.rays);
+    for (size_t c = 0; sampler_.connects_at_eye() && c < connections; ++c)
+      if (light[c].surface.valid)
+        connector.connect(eye, light[c], connections, sampler_.classes(), tile.values.data(), counts.rays);
   }
-  const uint32_t paths = static_cast<uint32_t>(tile.paths);
-  for (int i = 0; i < 16; ++i) {
-    if (!((eye.valid >> i) & 1u)) continue;
-    // Connections count once for each set of paths, paths by their number.
-    glm::vec3* values = tile.values.data() + static_cast<size_t>(i) * classes;
-    for (size_t c = 0; c < classes; ++c) values[c] *= static_cast<float>(paths);
-    for (uint32_t p = index * paths; p < (index + 1) * paths; ++p)
-      sampler_.sample(eye.vertex[i], light, {tile.pixel_scramble[i], p}, values, counts.rays);
-    for (size_t c = 0; c < classes; ++c) values[c] /= static_cast<float>(paths);
-    if (!add_sample(tile, i, values)) ++counts.non_finite;
-  }
+  // Connections count once for each set of paths, paths by their number.
+  const float paths = static_cast<float>(tile.paths);
+  for (glm::vec3& value : tile.values) value *= paths;
+  const uint32_t first = index * static_cast<uint32_t>(tile.paths);
+  for (uint32_t p = 0; p < static_cast<uint32_t>(tile.paths); ++p)
+    sampler_.sample(eye, light[0], tile.pixel_scramble, first + p, tile.values.data(), counts.rays);
+  for (glm::vec3& value : tile.values) value /= paths;
+  const size_t classes = sampler_.classes().count();
+  for (uint32_t i = 0; i < 16; ++i)
+    if (((eye.valid >> i) & 1u) && !add_sample(tile, static_cast<int>(i), tile.values.data() + i * classes))
+      ++counts.non_finite;
 }
 
 // False, and nothing is added, if a value is not finite.

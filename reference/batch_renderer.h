@@ -46,7 +46,8 @@ class BatchRenderer {
     int64_t rays = 0, non_finite = 0;
   };
   void render_row(int row, int batch);
-  Tile make_tile(int x0, int y0, uint64_t sequence) const;
+  Tile make_tile(int x0, int y0, uint64_t sequence, int paths) const;
+  const EyeTile& eye_tile(Tile& tile, uint32_t sub) const;
   int& paths_of(int x0, int y0);
   void render_tile(int x0, int y0, int batch, Counts& counts);
   void sample_tile(Tile& tile, uint32_t index, Counts& counts) const;

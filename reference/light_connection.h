@@ -2,8 +2,11 @@
 // connected to vertices of eye paths, one by one or to the 16 visible points of a 4x4 tile of pixels at once.
 #pragma once
 
+#include <span>
+
 #include "common/sampling/random.h"
 #include "common/tracing/ray_tracer.h"
+#include "reference/eye_tile.h"
 #include "reference/light_sampler.h"
 #include "reference/path_vertex.h"
 
@@ -16,31 +19,30 @@ struct PathRandom {
   glm::vec2 pair(uint64_t dimension) const { return sobol_2d(index, hash_combine(scramble, dimension)); }
 };
 
-// Visible points of a 4x4 tile: packets of shadow rays from them to one light vertex are coherent.
-struct EyeTile {
-  EyeVertex vertex[16];
-  glm::vec3 position[16];  // moved off the surface, as RayTracer::visible16 wants it
-  uint32_t valid = 0;      // bit i: vertex[i] is there
-};
-
 class LightConnector {
  public:
   LightConnector(const RayTracer& tracer, const LightSampler& lights, const LightPaths& paths)
       : tracer_(tracer), lights_(lights), paths_(paths) {}
 
-  // The first surface hit by a ray from a light; invalid if there is none.
-  LightVertex trace(const PathRandom& random, int64_t& rays) const;
+  // The first surfaces hit by rays from a light, for points random.index and following of the sequence, one
+  // for each of `vertices`; invalid where there is none.
+  void trace(PathRandom random, std::span<LightVertex> vertices, int64_t& rays) const;
 
   // Light reaching the eye by x - y - light, where `throughput` reaches x, divided by the sum of densities
-  // m p_b + count p_l, where `count` light vertices are connected to x.
-  SplitRadiance connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y, float count,
-                        int64_t& rays) const;
-  // The same for the vertices of a tile, which the eye sees; adds to one[i * classes.count()].
+  // m p_b + count p_l, where `count` light vertices are connected to x. Added to sums[0, classes.count()) as
+  // light of `bounces` bounces.
+  void connect(const EyeVertex& x, const Throughput& throughput, const LightVertex& y, float count,
+               int bounces, const PathClasses& classes, glm::vec3* sums, int64_t& rays) const;
+  // The same for the vertices of a tile, which the eye sees; adds to sums[i * classes.count()].
   void connect(const EyeTile& tile, const LightVertex& y, float count, const PathClasses& classes,
                glm::vec3* sums, int64_t& rays) const;
 
  private:
-  glm::vec3 unshadowed_diffuse(const EyeVertex& x, const LightVertex& y, float count) const;
+  struct Connections;
+  LightVertex vertex(const LightRay& ray, const Hit& hit) const;
+  Connections unshadowed_diffuse(const EyeTile& tile, const LightVertex& y, float count) const;
+  glm::vec3 unshadowed_diffuse(const EyeVertex& x, const glm::vec3& throughput, const LightVertex& y,
+                               float count) const;
   SplitRadiance unshadowed(const EyeVertex& x, const Throughput& throughput, const LightVertex& y,
                            float count) const;
   const RayTracer& tracer_;

@@ -36,11 +36,7 @@ PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy,
     }
 }
 
-void PathClasses::add(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const {
-  if (!told_apart()) {
-    *sums += radiance.sum();
-    return;
-  }
+void PathClasses::add_apart(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const {
   for (int eye = 0; eye < 2; ++eye)
     for (int interior = 0; interior < 2; ++interior) {
       const glm::vec3& value = radiance.value[eye][interior];

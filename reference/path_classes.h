@@ -57,9 +57,23 @@ class PathClasses {
   bool selected(size_t c) const { return chosen_.empty() || chosen_[c] != 0; }
   void select(std::vector<uint8_t> chosen) { chosen_ = std::move(chosen); }
   // Adds radiance of a path with `bounces` >= 0 to its classes' places in sums[0, count()).
-  void add(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const;
+  void add(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const {
+    if (told_apart_)
+      add_apart(bounces, end, radiance, sums);
+    else
+      *sums += radiance.sum();
+  }
+  // The same for a path whose vertices are all diffuse.
+  void add_diffuse(int bounces, LightEnd end, const glm::vec3& radiance, glm::vec3* sums) const {
+    if (told_apart_)
+      add_apart(bounces, end, {{{radiance, glm::vec3(0.0f)}, {glm::vec3(0.0f), glm::vec3(0.0f)}}}, sums);
+    else
+      *sums += radiance;
+  }
 
  private:
+  void add_apart(int bounces, LightEnd end, const SplitRadiance& radiance, glm::vec3* sums) const;
+
   bool told_apart_ = false;
   int last_ = 0;  // bounce counts from here on share a class
   std::vector<PathClass> classes_;

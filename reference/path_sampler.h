@@ -41,28 +41,34 @@ class PathSampler {
     return {&x1, allowed_brdf(x1, paths_, true), Segment(x1.position, eye).direction};
   }
 
-  // Radiance leaving x1 towards the eye along paths of the allowed numbers of bounces, one sample, without
-  // what the caller gets from connections_at_eye connections to x1 itself. `light` (may be invalid) is
-  // connected to the vertices behind x1. Adds to sums[0, classes().count()), which may become non-finite if
-  // the scene's data are, and the number of rays traced to `rays`.
-  void sample(const EyeVertex& x1, const LightVertex& light, const PathRandom& random, glm::vec3* sums,
-              int64_t& rays) const;
+  // Radiance leaving the visible points of `tile` towards the eye along paths of the allowed numbers of
+  // bounces, one sample each, without what the caller gets from connections_at_eye connections to them.
+  // `light` (may be invalid) is connected to the vertices behind them. The path of point i has the random
+  // numbers {scramble[i], index} and adds to sums[i * classes().count() + ...], which may become non-finite
+  // if the scene's data are; the number of rays traced is added to `rays`.
+  void sample(const EyeTile& tile, const LightVertex& light, const uint64_t* scramble, uint32_t index,
+              glm::vec3* sums, int64_t& rays) const;
 
  private:
   struct Walk;
+  struct Wave;
   Reflected next_event(const EyeVertex& y, float distance, float density, float connections, float u,
                        int64_t& rays) const;
   Reflected from_light(const EyeVertex& y, size_t light, float distance, float density, float connections,
                        int64_t& rays) const;
-  bool step(Walk& walk, const LightVertex& light) const;
-  void next_event_to_extended(Walk& walk, float u_choice) const;
+  void step(Wave& wave, int vertex, const LightVertex& light) const;
+  bool scatter(Walk& walk, bool roulette, int64_t& rays) const;
+  void arrive(Walk& walk, int64_t& rays) const;
   bool survives(Walk& walk, float u) const;
-  BrdfSample scatter(Walk& walk, float u_lobe) const;
-  Hit follow(Walk& walk, const BrdfSample& bounce) const;
-  void hit_emitter(Walk& walk, const Hit& hit, const BrdfSample& bounce) const;
-  void next_event_to_area(Walk& walk, float u_choice, const glm::vec2& u) const;
-  void next_event_to_environment(Walk& walk, const glm::vec2& u) const;
-  void hit_shapes(Walk& walk, const glm::vec3& origin, const BrdfSample& bounce, float t_far) const;
+  bool draw_direction(Walk& walk, float u_lobe) const;
+  bool follow(Walk& walk, int64_t& rays) const;
+  // Light with an extent; path_sampler_extended.cpp.
+  void next_event_to_extended(Walk& walk, float u_choice, int64_t& rays) const;
+  void next_event_to_area(Walk& walk, float u_choice, const glm::vec2& u, int64_t& rays) const;
+  void next_event_to_environment(Walk& walk, const glm::vec2& u, int64_t& rays) const;
+  void hit_emitter(Walk& walk) const;
+  void hit_shapes(Walk& walk, const glm::vec3& origin) const;
+  void hit_environment(Walk& walk) const;
   bool bounces_count(int bounces) const {
     return bounces >= paths_.min_bounces && bounces <= paths_.max_bounces;
   }

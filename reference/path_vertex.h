@@ -53,6 +53,19 @@ struct EyeVertex {
   glm::vec3 wo;             // towards the previous vertex
   float paths = 1.0f;  // BRDF samples taken here for each set of light vertices: m of the balance heuristic
 
+  // Becomes the vertex at `s`, which must outlive it, with its lobes that may reflect indirect light behind
+  // the visible surface. Field by field: a copy of a vertex just written stalls on its half-written vector
+  // loads.
+  void move_to(const SurfaceSample& s, const LightPaths& allowed, const glm::vec3& towards_previous) {
+    surface = &s;
+    brdf.diffuse = s.diffuse;
+    brdf.exponent = s.exponent;
+    brdf.glossy = allowed.glossy_interior ? s.glossy : glm::vec3(0.0f);
+    brdf.shape = s.shape;
+    wo = towards_previous;
+    paths = 1.0f;
+  }
+
   // f cos for light from w; 0 from behind either normal.
   Reflected reflect(const glm::vec3& w) const {
     const float cosine = glm::dot(surface->shading_normal, w);
@@ -81,14 +94,22 @@ class Throughput {
   }
   // Goes on through the vertex.
   void advance(const Reflected& r) {
-    split_ = reflect(r);
+    if (only_diffuse_ && black(r.glossy)) {
+      split_.value[0][0] *= r.diffuse;
+    } else {
+      split_ = reflect(r);
+      only_diffuse_ = false;
+    }
     started_ = true;
   }
+  // True if all vertices passed are diffuse: diffuse() is all of it.
+  bool only_diffuse() const { return only_diffuse_; }
+  const glm::vec3& diffuse() const { return split_.value[0][0]; }
   void scale(float factor) {
     for (auto& eye : split_.value)
       for (glm::vec3& v : eye) v *= factor;
   }
-  glm::vec3 sum() const { return split_.sum(); }
+  glm::vec3 sum() const { return only_diffuse_ ? diffuse() : split_.sum(); }
   // Radiance from what the path has hit, which emits `radiance`.
   SplitRadiance emitted(const glm::vec3& radiance) const {
     SplitRadiance out = split_;
@@ -98,7 +119,7 @@ class Throughput {
   }
 
  private:
-  bool started_ = false;
+  bool started_ = false, only_diffuse_ = true;
   SplitRadiance split_{{{glm::vec3(1.0f), glm::vec3(0.0f)}, {glm::vec3(0.0f), glm::vec3(0.0f)}}};
 };
 

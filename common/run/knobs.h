@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace relight {
@@ -25,6 +26,14 @@ struct Knob {
 };
 
 using KnobTable = std::vector<Knob>;
+
+// A named choice of values for some knobs; the others keep their defaults. "paper" is the name of the
+// defaults themselves and never in a list.
+struct KnobPreset {
+  std::string name;
+  std::string help;                                         // one sentence
+  std::vector<std::pair<std::string, std::string>> values;  // knob, value
+};
 
 // Values for every knob of one table. Getters throw std::logic_error on a name or type the table does not
 // have.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/image/image.h"
 #include "common/run/knobs.h"
@@ -57,6 +58,8 @@ class Method {
   virtual std::string summary() const = 0;  // one sentence
   virtual std::string paper() const = 0;    // authors, title, year
   virtual KnobTable knobs() const = 0;
+  // Besides "paper", the defaults.
+  virtual std::vector<KnobPreset> presets() const { return {}; }
   virtual LightPaths light_paths(const KnobValues& knobs) const = 0;
   virtual std::unique_ptr<Prepared> prepare(const PrepareContext& context) const = 0;
 };

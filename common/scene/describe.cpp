@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lights/light_words.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/topology.h"
 
@@ -101,9 +102,8 @@ void describe_lighting(const Scene& scene, std::string& text) {
   for (const auto& [name, lighting] : scene.lightings) {
     fmt::format_to(out, "  {}\n", name);
     for (const Light& light : lighting.lights) {
-      constexpr const char* types[] = {"omni", "spot", "directional", "rectangle", "disc"};
-      fmt::format_to(out, "    {} at {}, intensity {}", types[static_cast<int>(light.type)],
-                     show(light.position), show(light.intensity));
+      fmt::format_to(out, "    {} at {}, intensity {}", to_string(light.type), show(light.position),
+                     show(light.intensity));
       if (light.type == LightType::spot)
         fmt::format_to(out, ", towards {}, {:.4g} to {:.4g} degrees", show(light.direction),
                        light.inner_degrees, light.outer_degrees);

@@ -9,6 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "common/tracing/points16.h"
+
 namespace relight {
 
 struct RayLog {
@@ -18,7 +20,8 @@ struct RayLog {
     float t_far;
   };
   struct Packet {
-    glm::vec3 origin[16], end;
+    Points16 origin;  // inactive entries: any finite point
+    glm::vec3 end;
     uint32_t active;
   };
   // One thread's rays, in the order in which it traced them.
@@ -34,11 +37,9 @@ struct RayLog {
     thread.order.push_back(kind);
     thread.rays.push_back({origin, direction, t_far});
   }
-  void add_packet(const glm::vec3* origins, const glm::vec3& end, uint32_t active) {
+  void add(const Packet& packet) {
     Thread& thread = threads.local();
     thread.order.push_back(Kind::packet);
-    Packet packet{{}, end, active};
-    for (unsigned i = 0; i < 16; ++i) packet.origin[i] = (active >> i) & 1u ? origins[i] : end;
     thread.packets.push_back(packet);
   }
 };

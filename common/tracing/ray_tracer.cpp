@@ -118,12 +118,13 @@ bool RayTracer::Embree::occluded(const glm::vec3& origin, const glm::vec3& direc
 uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
   alignas(64) RTCRay16 rays;
   alignas(64) int valid[16];
+  const Points16& origin = packet.origin;
   for (unsigned i = 0; i < 16; ++i) {
-    const glm::vec3& origin = packet.origin[i];
-    const glm::vec3 direction = packet.end - origin;
     valid[i] = (packet.active >> i) & 1u ? -1 : 0;
-    rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
-    rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
+    rays.org_x[i] = origin.x[i], rays.org_y[i] = origin.y[i], rays.org_z[i] = origin.z[i];
+    rays.dir_x[i] = packet.end.x - origin.x[i];
+    rays.dir_y[i] = packet.end.y - origin.y[i];
+    rays.dir_z[i] = packet.end.z - origin.z[i];
     rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
     rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
   }
@@ -132,9 +133,8 @@ uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded16(valid, scene, &context, &rays);
   uint32_t blocked = 0;
-  for (unsigned i = 0; i < 16; ++i)
-    if (valid[i] && rays.tfar[i] < 0.0f) blocked |= 1u << i;
-  return blocked;
+  for (unsigned i = 0; i < 16; ++i) blocked |= (rays.tfar[i] < 0.0f ? 1u : 0u) << i;
+  return blocked & packet.active;
 }
 
 RayTracer::RayTracer(const Scene& scene) : scene_(scene), embree_(std::make_unique<Embree>()) {
@@ -163,6 +163,8 @@ Hit RayTracer::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
   if (!(hit.t >= 0.0f && hit.t <= t_far) || hit.triangle >= scene_.triangles.size())
     throw std::logic_error(fmt::format("tracing: Embree reports triangle {} at t = {} outside [0, {}]",
                                        hit.triangle, hit.t, t_far));
+  // Each hit becomes a surface: its cache miss begins now.
+  __builtin_prefetch(&scene_.triangles[hit.triangle]);
   return hit;
 }
 
@@ -179,16 +181,31 @@ bool RayTracer::visible_from_point(const glm::vec3& p, const glm::vec3& np, cons
   return embree_->free_segment(a, light);
 }
 
-uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {
+uint32_t RayTracer::visible16(const Points16& p, const glm::vec3& q, uint32_t active) const {
   if (!finite(q)) refuse_ray("end", q, q);
-  RayLog::Packet packet{{}, q, active};
+  RayLog::Packet packet;
+  packet.end = q, packet.active = active;
+  int not_finite[16];
   for (unsigned i = 0; i < 16; ++i) {
-    const bool on = (active >> i) & 1u;
-    packet.origin[i] = on ? p[i] : q;  // an inactive entry may hold anything
-    if (on && (!finite(p[i]) || !finite(q - p[i]))) refuse_ray("end", p[i], q);
+    const bool on = (active >> i) & 1u;  // an inactive entry may hold anything
+    const float x = on ? p.x[i] : q.x, y = on ? p.y[i] : q.y, z = on ? p.z[i] : q.z;
+    packet.origin.x[i] = x, packet.origin.y[i] = y, packet.origin.z[i] = z;
+    // 0 x a difference is 0 only if point and difference are finite.
+    not_finite[i] = !((q.x - x) * 0.0f + (q.y - y) * 0.0f + (q.z - z) * 0.0f == 0.0f);
   }
-  if (log_) log_->add_packet(packet.origin, q, active);
+  int any = 0;
+  for (const int one : not_finite) any |= one;
+  for (unsigned i = 0; any && i < 16; ++i)
+    if (not_finite[i]) refuse_ray("end", p.get(i), q);
+  if (log_) log_->add(packet);
   return active & ~embree_->occluded16(packet);
+}
+
+uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {
+  Points16 points;
+  for (unsigned i = 0; i < 16; ++i)
+    if ((active >> i) & 1u) points.set(i, p[i]);
+  return visible16(points, q, active);
 }
 
 RayCounts RayTracer::replay(const RayLog::Thread& log) const {

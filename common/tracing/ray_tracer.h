@@ -32,6 +32,9 @@ class RayTracer {
 
   // Turns a hit into a surface sample seen along `direction` (normals face the ray's origin).
   SurfaceSample surface(const Hit& hit, const glm::vec3& direction) const;
+  // Starts to fetch what surface(hit) will read. Called for several hits before surface() of the first, it
+  // lets their cache misses overlap.
+  void prefetch_surface(const Hit& hit) const;
 
   // True if the open segment between two surface points is free. Each end is first moved off its surface
   // along its geometric normal (on the side where the other end is) by offset().
@@ -41,6 +44,7 @@ class RayTracer {
 
   // 16 segments at once from p[i] to one common end; coherent packets. active: bit i set = test segment i.
   // Returns the mask of segments that are free. Positions must already be offset (see offset_point).
+  uint32_t visible16(const Points16& p, const glm::vec3& q, uint32_t active) const;
   uint32_t visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const;
 
   // Point p moved off its surface to the side of n: by a distance that scales with the largest coordinate of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -15,11 +16,19 @@ namespace relight {
 
 namespace {
 
+// `cpu`: of all threads of the process; on a machine shared with others it drifts less than `wall`, but it
+// does not count threads that wait for the last one.
+struct Seconds {
+  double wall = 0.0, cpu = 0.0;
+};
+
 template <typename Function>
-double seconds_of(Function function) {
+Seconds seconds_of(Function function) {
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   function();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC};
 }
 
 double median(std::vector<double> values) {
@@ -50,7 +59,7 @@ PathTracerSettings settings_of(const BenchOptions& options) {
 
 struct Measured {
   RayCounts rays;
-  std::vector<double> whole, raw, share;
+  std::vector<double> whole, raw, share, cpu_share;
 };
 
 Measured measure(Session& session, const PathTracerSettings& settings, int repeats) {
@@ -78,9 +87,11 @@ Measured measure(Session& session, const PathTracerSettings& settings, int repea
   };
   Measured measured;
   for (int i = 0; i < repeats; ++i) {
-    measured.whole.push_back(seconds_of(render));
-    measured.raw.push_back(seconds_of(replay));
-    measured.share.push_back(measured.raw.back() / measured.whole.back());
+    const Seconds whole = seconds_of(render), raw = seconds_of(replay);
+    measured.whole.push_back(whole.wall);
+    measured.raw.push_back(raw.wall);
+    measured.share.push_back(raw.wall / whole.wall);
+    measured.cpu_share.push_back(raw.cpu / whole.cpu);
   }
   for (const RayCounts& c : counts) {
     measured.rays.nearest += c.nearest;
@@ -105,11 +116,12 @@ std::string run_bench(const BenchOptions& options) {
       "path tracer, whole        {:8.2f} Mrays/s  (median of {}; direct light, shading and statistics "
       "included)\n"
       "Embree alone, same rays   {:8.2f} Mrays/s\n"
-      "share of Embree alone     {:8.2f}          ({})\n",
+      "share of Embree alone     {:8.2f}          ({})\n"
+      "the same in CPU time      {:8.2f}          ({}; steadier where others use the machine)\n",
       session.scene().triangles.size(), settings.samples_per_pixel, settings.paths.to_string(),
       to_string(settings.estimator), total, million(m.rays.nearest), million(m.rays.occlusion),
       million(m.rays.in_packets), total / median(m.whole), options.repeats, total / median(m.raw),
-      median(m.share), spread(m.share));
+      median(m.share), spread(m.share), median(m.cpu_share), spread(m.cpu_share));
 }
 
 }  // namespace relight

@@ -25,9 +25,10 @@ int list_methods() {
 int describe_method(const std::string& name) {
   const MethodList methods = make_all_methods();
   const Method& method = find_method(methods, name);
-  fmt::print("{}\n{}\n{}\ncarries by default: {}\n\n{}\nSet a knob with --set {}.KNOB=VALUE\n", method.name(),
-             method.summary(), method.paper(), method.light_paths(KnobValues(method.knobs())).to_string(),
-             knob_table_text(method.knobs()), method.name());
+  fmt::print("{}\n{}\n{}\ncarries by default: {}\n\n{}\nSet a knob with --set {}.KNOB=VALUE\n\n{}",
+             method.name(), method.summary(), method.paper(),
+             method.light_paths(KnobValues(method.knobs())).to_string(), knob_table_text(method.knobs()),
+             method.name(), presets_text(method.presets()));
   return 0;
 }
 

@@ -71,6 +71,12 @@ void add_reference_command(CLI::App& app, Action& action) {
           "limit")
       ->type_name("SECONDS")
       ->capture_default_str();
+  command
+      ->add_option("--checkpoint-seconds", options->checkpoint_s,
+                   "Write what an interrupted run goes on from after batches that end this much after the "
+                   "last time, and at the end; 0: after every batch")
+      ->type_name("SECONDS")
+      ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the images")->required()->type_name("DIR");
   command->callback([&action, options] {
     action = [options] {

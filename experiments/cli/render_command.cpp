@@ -19,6 +19,12 @@ void add_render_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("NAME");
   command
+      ->add_option("--preset", options->preset,
+                   "Knob values to start from: paper (the defaults), or a preset of a method (see `relight "
+                   "methods NAME`)")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
       ->add_option("--set", options->settings,
                    "Value of a knob (see `relight methods NAME`); may be repeated")
       ->type_name("METHOD.KNOB=VALUE")

@@ -15,8 +15,22 @@ void add_option(std::string& command, const std::string& option, const std::stri
 
 }  // namespace
 
-MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings) {
+void require_preset(const std::string& preset, const std::vector<const Method*>& methods) {
+  std::string valid = "paper";
+  for (const Method* method : methods)
+    for (const KnobPreset& p : method->presets()) {
+      if (p.name == preset) return;
+      append_name(valid, p.name);
+    }
+  if (preset != "paper") usage_fail("--preset '{}': no method of this run has it; valid: {}", preset, valid);
+}
+
+MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings,
+                       const std::string& preset) {
   KnobValues knobs(method.knobs());
+  for (const KnobPreset& p : method.presets())
+    if (p.name == preset)
+      for (const auto& [knob, value] : p.values) knobs.set(knob, value);
   for (const KnobSetting& setting : settings) {
     if (setting.method != method.name()) continue;
     try {
@@ -56,7 +70,8 @@ ComparePlan make_plan(const CompareOptions& options, const MethodList& methods) 
     chosen.push_back(&find_method(methods, name));
   }
   const auto settings = parse_settings(options.settings, chosen);
-  for (const Method* method : chosen) plan.methods.push_back(plan_method(*method, settings));
+  require_preset(options.preset, chosen);
+  for (const Method* method : chosen) plan.methods.push_back(plan_method(*method, settings, options.preset));
   parse_view(options.session.view);
   if (!options.bounces.empty()) plan.bounces = parse_bounces(options.bounces);
   require_samples("--reference-samples", options.reference_samples);

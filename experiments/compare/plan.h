@@ -15,6 +15,7 @@ namespace relight {
 struct CompareOptions {
   SessionOptions session;
   std::string methods;                // comma-separated names
+  std::string preset = "paper";       // values of knobs before `settings`
   std::vector<std::string> settings;  // "method.knob=value"
   std::string out;                    // folder
   std::string bounces;                // "a..b"; empty: each method's own
@@ -39,9 +40,13 @@ struct ComparePlan {
   int repeats;
 };
 
-// Defaults plus those settings that name the method. Throws UsageError (unknown method or knob, value out of
-// range).
-MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings);
+// Defaults, then what the preset says where the method has it, then those settings that name the method.
+// Throws UsageError (unknown method or knob, value out of range).
+MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& settings,
+                       const std::string& preset = "paper");
+
+// UsageError listing the valid names if no method has that preset.
+void require_preset(const std::string& preset, const std::vector<const Method*>& methods);
 
 // "method.knob=value" for each text; UsageError if one names a method outside `methods`.
 std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "common/lights/light_words.h"
 #include "common/run/error.h"
 #include "experiments/compare/result_bytes.h"
 #include "experiments/options/parse.h"
@@ -13,14 +14,6 @@ namespace {
 constexpr const char* kind = "reference.images";
 
 std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
-
-std::string words(const Light& light) {
-  return fmt::format(
-      "[type={} position={} direction={} intensity={} inner={} outer={} shadows={} u={} v={} radius={}]",
-      static_cast<int>(light.type), words(light.position), words(light.direction), words(light.intensity),
-      light.inner_degrees, light.outer_degrees, light.casts_shadows, words(light.edge_u), words(light.edge_v),
-      light.radius);
-}
 
 std::string words(const LightPaths& paths) {
   return fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}",
@@ -40,7 +33,7 @@ std::string reference_key(const Session& session, const PathTracerSettings& sett
 std::string picture_key(const Session& session, const PathTracerSettings& settings) {
   const View& view = session.buffer().view;
   std::string lights;
-  for (const Light& light : session.lighting().lights) lights += words(light);
+  for (const Light& light : session.lighting().lights) lights += fmt::format("[{}]", describe(light));
   return fmt::format(
       "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "
       "estimator={} seed={} classes={} pattern='{}' extended={}",

@@ -39,4 +39,16 @@ std::string knob_table_text(const KnobTable& table) {
   return text.to_string();
 }
 
+std::string presets_text(const std::vector<KnobPreset>& presets) {
+  TextTable text({"--preset", "sets", "what it is"});
+  text.add_row({"paper", "", "The defaults."});
+  for (const KnobPreset& preset : presets) {
+    std::string values;
+    for (const auto& [knob, value] : preset.values)
+      values += fmt::format("{}{}={}", values.empty() ? "" : " ", knob, value);
+    text.add_row({preset.name, values, preset.help});
+  }
+  return text.to_string();
+}
+
 }  // namespace relight

@@ -14,4 +14,7 @@ std::string phase_name(const Knob& knob);  // "precompute", "relight"
 // One aligned line a knob: name, type, default, range, phase, stage, sentence.
 std::string knob_table_text(const KnobTable& table);
 
+// One line a preset with the knobs that it sets, "paper" first.
+std::string presets_text(const std::vector<KnobPreset>& presets);
+
 }  // namespace relight

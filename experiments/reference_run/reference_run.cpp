@@ -23,6 +23,9 @@ void check(const ReferenceOptions& options) {
     usage_fail("--time {}: expected a number of seconds, 0 for no limit", options.time_limit_s);
   if (!(options.target_percent >= 0.0) || std::isinf(options.target_percent))
     usage_fail("--target-error {}: expected per cent >= 0, 0 for none", options.target_percent);
+  if (!(options.checkpoint_s >= 0.0) || std::isinf(options.checkpoint_s))
+    usage_fail("--checkpoint-seconds {}: expected a number of seconds, 0 for after every batch",
+               options.checkpoint_s);
   if (options.batch < 1 || options.batch > 65536)
     usage_fail("--batch {}: expected 1 to 65536 samples", options.batch);
   if (options.class_bounces < 0 || options.class_bounces > 12)
@@ -88,7 +91,8 @@ std::string run_reference(const ReferenceOptions& options) {
   const std::filesystem::path out = options.out;
   Session session(options.session, Session::Gpu::not_needed);
   settings.checkpoint = {out / "state.relight",
-                         fmt::format("{} batch={}", picture_key(session, settings), options.batch)};
+                         fmt::format("{} batch={}", picture_key(session, settings), options.batch),
+                         options.checkpoint_s};
   if (options.restart) std::filesystem::remove(settings.checkpoint.file);
   ConvergenceFile convergence(out / "convergence.csv", std::filesystem::exists(settings.checkpoint.file));
   settings.on_batch = [&](const ConvergencePoint& point) { convergence.add(point); };

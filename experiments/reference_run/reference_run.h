@@ -19,6 +19,7 @@ struct ReferenceOptions {
   std::string estimator = "light_vertex";
   double time_limit_s = 0.0;    // > 0: stop before the batch that would exceed it
   double target_percent = 0.0;  // > 0: stop at this relative standard error
+  double checkpoint_s = 30.0;   // the checkpoint is written after batches that end this much later
   bool restart = false;         // ignore what an earlier run left in `out`
   std::string out;              // folder
 };

@@ -40,7 +40,8 @@ int64_t non_finite_pixels(const Image& image) {
 
 std::string render(const RenderOptions& options, const MethodList& methods) {
   const Method& method = find_method(methods, options.method);
-  const MethodPlan plan = plan_method(method, parse_settings(options.settings, {&method}));
+  require_preset(options.preset, {&method});
+  const MethodPlan plan = plan_method(method, parse_settings(options.settings, {&method}), options.preset);
   check_output(options);
   Session session(options.session, Session::Gpu::needed);
   const MethodRun run = run_method(plan, session, 1);

@@ -13,6 +13,7 @@ namespace relight {
 struct RenderOptions {
   SessionOptions session;
   std::string method;
+  std::string preset = "paper";       // values of knobs before `settings`
   std::vector<std::string> settings;  // "method.knob=value"
   std::string image = "total";        // direct, indirect or total
   std::string out;                    // file ending in .exr (radiance) or .png (scene's exposure, sRGB)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lights/light_words.h"
 #include "experiments/compare/reference_images.h"
 #include "experiments/options/parse.h"
 
@@ -13,36 +14,9 @@ using Json = nlohmann::ordered_json;
 
 std::string words(const glm::vec3& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 
-const char* type_name(LightType type) {
-  switch (type) {
-    case LightType::omni:
-      return "omni";
-    case LightType::spot:
-      return "spot";
-    case LightType::directional:
-      return "directional";
-    case LightType::rectangle:
-      return "rectangle";
-    case LightType::disc:
-      return "disc";
-  }
-  return "unknown";
-}
-
-std::string words(const Light& light) {
-  std::string text = fmt::format("{} position {} direction {} intensity {}", type_name(light.type),
-                                 words(light.position), words(light.direction), words(light.intensity));
-  if (light.type == LightType::spot)
-    text += fmt::format(" inner {} outer {} degrees", light.inner_degrees, light.outer_degrees);
-  if (light.type == LightType::rectangle)
-    text += fmt::format(" edges {} {}", words(light.edge_u), words(light.edge_v));
-  if (light.type == LightType::disc) text += fmt::format(" radius {}", light.radius);
-  return text + (light.casts_shadows ? "" : " without shadows");
-}
-
 Json lights_json(const LightingState& lighting) {
   Json lights = Json::array();
-  for (const Light& light : lighting.lights) lights.push_back(words(light));
+  for (const Light& light : lighting.lights) lights.push_back(describe(light));
   return lights;
 }
 

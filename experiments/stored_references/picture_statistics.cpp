@@ -79,32 +79,45 @@ double PictureStatistics::relative_standard_error() const {
   return sum > 0.0 ? std::sqrt(error / sum) : 0.0;
 }
 
-PictureStatistics render_statistics(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                                    const LightingState& lighting, const BatchPlan& plan,
-                                    Progress& progress) {
-  if (plan.batches < 2) fail("stored reference: {} batches; needed are at least 2", plan.batches);
-  PictureStatistics result;
+PictureStatistics statistics_of(const std::vector<Image>& renders) {
+  if (renders.size() < 2) fail("picture statistics: {} renders; needed are at least 2", renders.size());
   Accumulator pixels, tiles, whole;
-  Progress quiet(true);
-  progress.start("path tracing", plan.batches);
-  for (int batch = 0; batch < plan.batches; ++batch) {
-    StageLog log;
-    PathTracerResult render = path_trace(tracer, buffer, lighting, batch_settings(plan, batch), quiet, log);
-    pixels.add(render.indirect);
-    tiles.add(block_means(render.indirect, tile_side));
-    whole.add(block_means(render.indirect, std::max(buffer.view.width, buffer.view.height)));
-    result.non_finite += render.non_finite;
-    result.rays += render.rays;
-    result.seconds += render.seconds;
-    result.direct = std::move(render.direct);
-    progress.advance();
+  for (const Image& image : renders) {
+    pixels.add(image);
+    tiles.add(block_means(image, tile_side));
+    whole.add(block_means(image, std::max(image.width, image.height)));
   }
-  progress.finish();
+  PictureStatistics result;
   result.pixels = pixels.estimate();
   result.tiles = tiles.estimate();
   result.whole = whole.estimate();
   result.fireflies = pixels.fireflies();
-  result.batches = plan.batches;
+  result.batches = static_cast<int>(renders.size());
+  return result;
+}
+
+PictureStatistics render_statistics(const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                                    const LightingState& lighting, const BatchPlan& plan,
+                                    Progress& progress) {
+  if (plan.batches < 2) fail("stored reference: {} batches; needed are at least 2", plan.batches);
+  std::vector<PathTracerResult> renders;
+  Progress quiet(true);
+  progress.start("path tracing", plan.batches);
+  for (int batch = 0; batch < plan.batches; ++batch) {
+    StageLog log;
+    renders.push_back(path_trace(tracer, buffer, lighting, batch_settings(plan, batch), quiet, log));
+    progress.advance();
+  }
+  progress.finish();
+  std::vector<Image> indirect;
+  for (PathTracerResult& render : renders) indirect.push_back(std::move(render.indirect));
+  PictureStatistics result = statistics_of(indirect);
+  for (const PathTracerResult& render : renders) {
+    result.non_finite += render.non_finite;
+    result.rays += render.rays;
+    result.seconds += render.seconds;
+  }
+  result.direct = std::move(renders.back().direct);
   result.samples_per_pixel = plan.batches * plan.samples_per_batch;
   return result;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "common/image/image.h"
 #include "common/run/progress.h"
@@ -42,6 +43,10 @@ struct BatchPlan {
   int samples_per_batch = 4;  // a pixel
   uint64_t seed = 1;          // plans of different seeds share no random numbers
 };
+
+// Statistics of independent pictures of indirect light, at least two of one size; all other fields stay as
+// they are in an empty picture. Throws Error for fewer.
+PictureStatistics statistics_of(const std::vector<Image>& renders);
 
 // Renders `batches` times with seeds of their own, each a single scrambled Sobol sequence. Same bits for any
 // number of threads. Throws Error for settings out of range.

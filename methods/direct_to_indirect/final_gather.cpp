@@ -26,6 +26,7 @@ struct Totals {
 struct Worker {
   TileGather gather;
   std::optional<LightRefit> refit;
+  std::array<RefitRow, lanes> rows;
   std::vector<Candidate> candidates;
   Totals totals;
 };
@@ -47,12 +48,19 @@ class Builder {
   void tile(Worker& worker, int t) {
     const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
     worker.gather.gather(samples, static_cast<uint64_t>(t));
+    for (size_t i = 0; i < lanes; ++i) {
+      worker.rows[i] = {};
+      if (samples[i] && samples[i]->valid) worker.rows[i] = select(worker, i, *samples[i]);
+    }
+    if (worker.refit) worker.refit->refit(worker.gather.coefficients(), worker.rows);
     TileRows& rows = tiles_[static_cast<size_t>(t)];
     for (size_t i = 0; i < lanes; ++i) {
-      if (samples[i] && samples[i]->valid) append_row(worker, i, *samples[i], rows.entries);
+      const std::vector<SparseEntry>& row = worker.rows[i].entries;
+      for (const SparseEntry& e : row)
+        worker.totals.energy_kept += static_cast<double>(e.value) * static_cast<double>(e.value);
+      rows.entries.insert(rows.entries.end(), row.begin(), row.end());
       rows.end[i] = static_cast<uint32_t>(rows.entries.size());
     }
-    if (worker.refit) refit(worker, rows);
   }
 
   SparseRows finish() {
@@ -80,31 +88,29 @@ class Builder {
     std::array<uint32_t, lanes> end{};
   };
 
-  static void refit(Worker& worker, TileRows& rows) {
-    std::array<std::span<SparseEntry>, lanes> kept;
-    for (size_t i = 0; i < lanes; ++i) {
-      const uint32_t first = i == 0 ? 0 : rows.end[i - 1];
-      kept[i] = std::span(rows.entries).subspan(first, rows.end[i] - first);
-    }
-    worker.refit->refit(worker.gather.coefficients(), kept);
-  }
-
-  void append_row(Worker& worker, size_t lane, const SurfaceSample& sample, std::vector<SparseEntry>& out) {
+  // What the row keeps, or with a refit: what it may keep, and how many of them.
+  RefitRow select(Worker& worker, size_t lane, const SurfaceSample& sample) const {
+    std::vector<Candidate>& candidates = worker.candidates;
     const float factor = settings_.shared_budget ? row_factor(sample) : 1.0f;
     collect_candidates(worker.gather.coefficients(), lane, settings_.support_exponent, columns_, factor,
-                       worker.candidates);
-    double energy = 0.0, kept = 0.0;
-    for (const Candidate& c : worker.candidates) energy += static_cast<double>(c.entry.value) * c.entry.value;
-    worker.totals.before += static_cast<int64_t>(worker.candidates.size());
-    if (settings_.shared_budget)
-      std::erase_if(worker.candidates, [this](const Candidate& c) { return !(c.weight > threshold_); });
-    keep_largest(worker.candidates, settings_.row_limit());
-    for (const Candidate& c : worker.candidates) {
-      out.push_back(c.entry);
-      kept += static_cast<double>(c.entry.value) * c.entry.value;
-    }
+                       candidates);
+    double energy = 0.0;
+    for (const Candidate& c : candidates)
+      energy += static_cast<double>(c.entry.value) * static_cast<double>(c.entry.value);
+    worker.totals.before += static_cast<int64_t>(candidates.size());
     worker.totals.energy_before += energy;
-    worker.totals.energy_kept += kept;
+
+    RefitRow row;
+    row.target = candidates.size();
+    if (settings_.shared_budget)
+      row.target =
+          static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(),
+                                            [this](const Candidate& c) { return c.weight > threshold_; }));
+    row.target = std::min(row.target, settings_.row_limit());
+    const float surplus = worker.refit ? settings_.refit_candidates : 1.0f;
+    keep_largest(candidates, static_cast<size_t>(surplus * static_cast<float>(row.target)));
+    for (const Candidate& c : candidates) row.entries.push_back(c.entry);
+    return row;
   }
 
   const DeepFrameBuffer& buffer_;
@@ -125,7 +131,11 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
           : 0.0f;
   Builder builder(in.buffer, settings, static_cast<uint32_t>(in.cloud.samples.size()), threshold);
   tbb::enumerable_thread_specific<Worker> workers([&] {
-    Worker worker{TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale), {}, {}, {}};
+    Worker worker{TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale, in.near_field),
+                  {},
+                  {},
+                  {},
+                  {}};
     if (in.training.count > 0) worker.refit.emplace(in.training, settings.refit_ridge);
     return worker;
   });
@@ -140,6 +150,8 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
   for (const Worker& w : workers) {
     sum.gather.rays += w.gather.counts().rays;
     sum.gather.links += w.gather.counts().links;
+    sum.gather.near_elements += w.gather.counts().near_elements;
+    sum.gather.near_rays += w.gather.counts().near_rays;
     sum.before += w.totals.before;
     sum.energy_before += w.totals.energy_before;
     sum.energy_kept += w.totals.energy_kept;
@@ -147,9 +159,13 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
   SparseRows rows = builder.finish();
   log.count("visibility_rays", sum.gather.rays);
   log.count("links", sum.gather.links);
+  if (in.near_field) {
+    log.count("near_elements", sum.gather.near_elements);
+    log.count("near_rays", sum.gather.near_rays);
+  }
   log.count("coefficients_before_truncation", sum.before);
   log.count("non_zeros", static_cast<int64_t>(rows.entries.size()));
-  if (sum.energy_before > 0.0)
+  if (sum.energy_before > 0.0 && in.training.count == 0)  // refitted values carry what was dropped
     log.count("row_energy_kept_ppm", std::llround(1e6 * sum.energy_kept / sum.energy_before));
   return rows;
 }

@@ -8,7 +8,7 @@
 // shading normal of the view sample, cos(theta_j) with the geometric normal of the gather sample (it converts
 // area to solid angle).
 //
-// Does not do: the glossy matrix, any other treatment of corners than the clamp.
+// Does not do: the glossy matrix.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,19 @@
 
 namespace relight::direct_to_indirect {
 
+class NearField;
+
 struct FinalGatherSettings {
   float link_threshold =
       0.01f;  // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
-  float form_factor_clamp = 0.1f;  // largest element
+  float form_factor_clamp = 0.1f;  // largest element of a link
+  bool disc_elements = false;      // links are bounded as discs, cos cos A / (pi r^2 + A), and not clamped
   int coefficients = 100;          // kept a row, or on average a row with shared_budget
   bool shared_budget = false;      // all rows share coefficients x rows, the heaviest of all are kept
   float support_exponent =
       1.0f;                  // coefficients are ranked by |c| x support^this: 1 by area (paper), 0 by size
-  float refit_ridge = 0.3f;  // see light_refit.h
+  float refit_ridge = 0.1f;  // see light_refit.h
+  float refit_candidates = 1.0f;  // coefficients that the refit chooses from, for each that it keeps
   uint64_t seed = 1;
 
   // Most that one row may keep. A shared budget is mostly used up below four times the mean.
@@ -45,8 +49,9 @@ struct FinalGatherInput {
   const DeepFrameBuffer& buffer;
   const GatherCloud& cloud;  // in tree order
   const GatherHierarchy& hierarchy;
-  std::span<const float> column_scale;  // by which columns are divided (column_scaling.h), or empty
-  const TrainingLights& training;       // the kept coefficients are refitted to them; none: they are not
+  std::span<const float> column_scale;    // by which columns are divided (column_scaling.h), or empty
+  const TrainingLights& training;         // the kept coefficients are refitted to them; none: they are not
+  const NearField* near_field = nullptr;  // takes the place of links to near gather samples; or none
 };
 
 // One row a view sample of `buffer` (empty for invalid ones), one column a wavelet coefficient of the ordered

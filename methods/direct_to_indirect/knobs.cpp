@@ -17,6 +17,12 @@ KnobTable knob_table() {
        "A cluster is subdivided while (bounding-box diagonal / distance)^2 exceeds this; 0 links every sample (0.02: some 4,000 rays a view sample, as in the paper)."},
       {"form_factor_clamp", real, precompute, "0.1", 0, 1, {}, "final_gather",
        "Largest value of a final-gather element, against 1/r^2 in corners (paper: 0.1)."},
+      {"near_field", choice, precompute, "clamp", 0, 0, {"clamp", "disc", "cell_average", "hemisphere"}, "near_field",
+       "Elements between close points: clamped (paper), bounded as discs, averaged over 8 points of the cell, or cosine rays snapped to gather samples (near_field.h)."},
+      {"near_threshold", real, precompute, "0.01", 0.0001, 1, {}, "near_field",
+       "With cell_average and hemisphere: share of the hemisphere that a gather sample's cell must fill to be near."},
+      {"near_rays", integer, precompute, "256", 1, 65536, {}, "near_field",
+       "With hemisphere: rays of a view sample that has anything near."},
       {"column_scaling", choice, precompute, "none", 0, 0, {"none", "mean_row"}, "column_scaling",
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
@@ -27,8 +33,10 @@ KnobTable knob_table() {
        "A row keeps the coefficients with the largest |c| x support^this: 1 weights by area (paper), 0 by size alone."},
       {"refit_lights", integer, precompute, "0", 0, 4096, {}, "refit",
        "Kept coefficients are refitted to this many random lights in front of the view; 0 leaves them as they are (paper)."},
-      {"refit_ridge", real, precompute, "0.3", 0.001, 1000, {}, "refit",
-       "Weight of the original values in the refit, in units of the mean squared response of a kept coefficient."},
+      {"refit_candidates", real, precompute, "1", 1, 8, {}, "refit",
+       "Of this many times the coefficients kept, the refit chooses those that serve its lights best; 1: no choice."},
+      {"refit_ridge", real, precompute, "0.1", 0.001, 1000, {}, "refit",
+       "Weight of the original values in the refit, in units of each coefficient's own squared response: how much its lights are distrusted."},
       {"shadows", choice, relight, "map", 0, 0, {"map", "traced"}, "direct_shading",
        "Shadows on view and gather samples: shadow maps (paper) or exact traced rays."},
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
@@ -47,6 +55,13 @@ KnobTable knob_table() {
        "Largest share of zeros in a rectangle of product=quads before it is split (0.65: half of what is stored, as in the paper)."},
   };
   // clang-format on
+}
+
+std::vector<KnobPreset> knob_presets() {
+  return {{"best",
+           "The paper's number of coefficients in every row, chosen and refitted for random lights "
+           "(light_refit.h): twice the precompute time, the same relight time.",
+           {{"support_exponent", "0.8"}, {"refit_lights", "2048"}, {"refit_candidates", "1.5"}}}};
 }
 
 }  // namespace relight::direct_to_indirect

@@ -6,5 +6,6 @@
 namespace relight::direct_to_indirect {
 
 KnobTable knob_table();
+std::vector<KnobPreset> knob_presets();
 
 }  // namespace relight::direct_to_indirect

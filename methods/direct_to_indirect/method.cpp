@@ -20,6 +20,7 @@ class DirectToIndirect : public Method {
     return "Hasan, Pellacini, Bala: Direct-to-Indirect Transfer for Cinematic Relighting, SIGGRAPH 2006";
   }
   KnobTable knobs() const override { return knob_table(); }
+  std::vector<KnobPreset> presets() const override { return knob_presets(); }
   LightPaths light_paths(const KnobValues&) const override { return {}; }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);

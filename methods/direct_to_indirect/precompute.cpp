@@ -6,22 +6,50 @@
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/near_field.h"
 #include "methods/direct_to_indirect/training_lights.h"
 
 namespace relight::direct_to_indirect {
 namespace {
+
+// Of near_field=cell_average.
+constexpr int64_t points_a_cell = 8;
 
 FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   FinalGatherSettings settings;
   settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
+  settings.disc_elements = knobs.choice("near_field") == "disc";
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
   settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
+  settings.refit_candidates = static_cast<float>(knobs.real("refit_candidates"));
   settings.seed = context.seed;
   return settings;
+}
+
+CloudSampling cloud_sampling(const KnobValues& knobs) {
+  return knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
+}
+
+// Null where links alone are asked for.
+std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const GatherCloud& cloud,
+                                           const GatherHierarchy& hierarchy) {
+  const KnobValues& knobs = context.knobs;
+  const std::string& kind = knobs.choice("near_field");
+  if (kind != "cell_average" && kind != "hemisphere") return nullptr;
+  StageTimer timer(context.log, "near_field");
+  const NearFieldSettings settings{static_cast<float>(knobs.real("near_threshold")),
+                                   static_cast<int>(knobs.integer("near_rays")), context.seed};
+  std::vector<SurfaceSample> points;
+  if (kind == "cell_average")
+    points = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), 1,
+                                        points_a_cell * static_cast<int64_t>(cloud.samples.size()),
+                                        context.seed + 1)
+                 .samples;
+  return std::make_unique<NearField>(context.tracer, cloud, hierarchy, settings, points);
 }
 
 Artefact precompute(const PrepareContext& context) {
@@ -29,9 +57,7 @@ Artefact precompute(const PrepareContext& context) {
   Artefact artefact;
   {
     StageTimer timer(context.log, "gather_cloud");
-    const CloudSampling sampling =
-        knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
-    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, sampling, 1,
+    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), 1,
                                                 knobs.integer("gather_samples"), context.seed);
   }
   GatherHierarchy hierarchy;
@@ -55,8 +81,10 @@ Artefact precompute(const PrepareContext& context) {
         make_training_lights(context.tracer, context.buffer, artefact.cloud, scale, lights, context.seed);
     context.log.bytes("training_lights", static_cast<int64_t>(training.response.size() * sizeof(float)));
   }
+  const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   StageTimer timer(context.log, "final_gather");
-  const FinalGatherInput input{context.tracer, context.buffer, artefact.cloud, hierarchy, scale, training};
+  const FinalGatherInput input{context.tracer, context.buffer, artefact.cloud,  hierarchy,
+                               scale,          training,       near_field.get()};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;

@@ -22,6 +22,12 @@ struct BoxSupport {
   }
 };
 
+// The first near element at or after `sample`.
+auto find_near(const std::vector<NearElement>& near, size_t sample) {
+  return std::lower_bound(near.begin(), near.end(), sample,
+                          [](const NearElement& e, size_t j) { return e.sample < j; });
+}
+
 uint32_t to_mask(const std::array<uint32_t, lanes>& flags) {
   uint32_t mask = 0;
   for (uint32_t i = 0; i < lanes; ++i) mask |= flags[i] << i;
@@ -35,6 +41,7 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
   coefficients_.clear();
   uint32_t mask = 0;
   for (size_t i = 0; i < lanes; ++i) {
+    near_[i].clear();
     if (!samples[i] || !samples[i]->valid) continue;
     const SurfaceSample& s = *samples[i];
     mask |= 1u << i;
@@ -42,6 +49,9 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
     sx_[i] = s.shading_normal.x, sy_[i] = s.shading_normal.y, sz_[i] = s.shading_normal.z;
     gx_[i] = s.geometric_normal.x, gy_[i] = s.geometric_normal.y, gz_[i] = s.geometric_normal.z;
     ray_start_[i] = tracer_.offset_point(s.position, s.geometric_normal);
+    if (!near_field_) continue;
+    near_field_->elements(s, tile * lanes + i, near_[i], counts_.near_rays);
+    counts_.near_elements += static_cast<int64_t>(near_[i].size());
   }
   if (mask == 0) return;
   coefficients_.push_back({0, visit(0, 0, mask)});
@@ -49,13 +59,15 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
 
 // Returns the scaling coefficient of the cluster's part of each row; appends the details below and at it.
 Lanes TileGather::visit(size_t level, size_t index, uint32_t mask) {
-  if (level + 1 == tree_.levels.size())
-    return link(level, index, mask);  // a single sample: link() tests it exactly
+  if (level + 1 == tree_.levels.size()) return leaf(level, index, mask);
   const Cluster& cluster = tree_.levels[level][index];
+  // The cell of a near sample may reach into the view where the sample itself is behind or faces away.
+  const uint32_t near = with_near_members(level, index, mask);
   mask = in_front(cluster, mask);
   if (mask) mask = not_facing_away(cluster, mask);
+  mask |= near;
   if (mask == 0) return Lanes{};
-  if (!needs_subdivision(cluster, mask)) return link(level, index, mask);
+  if (!near && !needs_subdivision(cluster, mask)) return link(level, index, mask);
 
   std::array<Lanes, 4> child;
   for (size_t c = 0; c < 4; ++c) child[c] = visit(level + 1, 4 * index + c, mask);
@@ -76,6 +88,29 @@ Lanes TileGather::visit(size_t level, size_t index, uint32_t mask) {
       coefficients_.push_back({(t + 1) * nodes + static_cast<uint32_t>(index), details[t]});
   }
   return scaling;
+}
+
+// Lanes that have near samples in the cluster.
+uint32_t TileGather::with_near_members(size_t level, size_t index, uint32_t mask) const {
+  if (!near_field_) return 0;
+  const size_t size = cloud_.samples.size() / tree_.levels[level].size();
+  std::array<uint32_t, lanes> any{};
+  for (size_t i = 0; i < lanes; ++i) {
+    if (near_[i].empty()) continue;
+    const auto at = find_near(near_[i], index * size);
+    any[i] = at != near_[i].end() && at->sample < (index + 1) * size ? 1 : 0;
+  }
+  return mask & to_mask(any);
+}
+
+// A single sample: the near field's element where it is near, elsewhere a link, which tests it exactly.
+Lanes TileGather::leaf(size_t level, size_t index, uint32_t mask) {
+  const uint32_t near = with_near_members(level, index, mask);
+  Lanes value = (mask & ~near) ? link(level, index, mask & ~near) : Lanes{};
+  const float factor = column_scale_.empty() ? 1.0f : 1.0f / column_scale_[index];
+  for (size_t i = 0; i < lanes; ++i)
+    if (near >> i & 1u) value[i] = find_near(near_[i], index)->value * factor;
+  return value;
 }
 
 // Lanes for which some of the cluster is above both the shading and the geometric plane of the view sample.
@@ -147,8 +182,11 @@ Lanes TileGather::link(size_t level, size_t index, uint32_t mask) {
     const float cos_gather = -(nq.x * wx + nq.y * wy + nq.z * wz);  // times r
     const bool faces = cos_view > 0.0f && above > 0.0f && cos_gather > 0.0f && r2 > 0.0f;
     // Dividing twice by r2 keeps tiny scenes from underflowing r^4.
-    const float f = faces ? (cos_view / r2) * (cos_gather / r2) * scaled_area : 0.0f;
-    value[i] = std::min(f, settings_.form_factor_clamp);
+    const float far = (cos_view / r2) * (cos_gather / r2) * scaled_area;
+    // pi r^2 / (pi r^2 + A) turns a point's form factor into a disc's
+    const float bounded = settings_.disc_elements ? far * (r2 / (r2 + scaled_area))
+                                                  : std::min(far, settings_.form_factor_clamp);
+    value[i] = faces ? bounded : 0.0f;
     positive[i] = value[i] > 0.0f ? 1 : 0;
   }
   mask &= to_mask(positive);

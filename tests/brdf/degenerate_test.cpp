@@ -64,7 +64,7 @@ TEST(Degenerate, ValuesAndDensitiesAreFiniteForEveryPairOfHardDirections) {
 }
 
 // A black glossy part must switch every model off: light path classes are made that way
-// (reference/path_vertex.h). Red if Fresnel still rises from black.
+// (reference/path_vertex.h). Red if Fresnel still rises from black in the value (tried).
 TEST(Degenerate, ABlackGlossyPartLeavesLambertAlone) {
   const glm::vec3 n(0, 0, 1);
   for (test::BrdfCase c : test::brdf_cases()) {

@@ -80,7 +80,7 @@ TEST(Formula, LafortuneIsTheSumOfItsLobes) {
   }
 }
 
-// Red if the C = (-1,-1,1) lobe isn't the mirror lobe.
+// Red if the C = (-1,-1,1) lobe isn't the mirror lobe (tried: the sign of C_x).
 TEST(Formula, ALafortuneLobeWithRatiosOfMinusOneIsPhong) {
   const shader::BrdfParams phong = test::with_part(glm::vec3(0.2f), phong_part({0.5f, 0.4f, 0.3f}, 25.0f));
   const LafortuneLobe lobe{-2.0f, -2.0f, 2.0f, 25.0f, {0.5f, 0.4f, 0.3f}};

@@ -32,7 +32,8 @@ TEST(LafortuneParts, AddUpToTheGlossyColourExactly) {
   }
 }
 
-// Red if a value that floats, halves or the energy bound cannot hold passes.
+// Red if a value that floats, halves or the energy bound cannot hold passes (tried: no check of the exponent,
+// of cx and cy).
 TEST(LafortuneParts, RefuseWhatTheyCannotHold) {
   const auto part = [](std::vector<LafortuneLobe> lobes) { return lafortune_part(lobes); };
   EXPECT_THROW(part({}), std::invalid_argument);
@@ -66,7 +67,7 @@ TEST(LafortuneParts, LargestAlbedoBoundsTheAlbedoAtEveryAngle) {
     }
 }
 
-// Red if roughness 0 gives a lobe that floats cannot sample.
+// Red if roughness 0 gives a lobe that floats cannot sample (tried).
 TEST(GgxParts, ClampAlphaToWhatFloatsCanSample) {
   EXPECT_EQ(ggx_part(glm::vec3(0.5f), 0.0f, 2.0f).exponent, smallest_alpha);
   EXPECT_EQ(ggx_part(glm::vec3(0.5f), 0.0f, 2.0f).shape.exponent_v, 1.0f);

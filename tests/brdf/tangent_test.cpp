@@ -50,13 +50,14 @@ TEST(Tangents, FollowTheTextureCoordinatesOnBothSidesAndBothTriangles) {
     }
 }
 
-// Red if 0/0 for missing texture coordinates reaches the frame.
+// Red if 0/0 for missing texture coordinates reaches the frame (tried).
 TEST(Tangents, AreTheFramesOwnWithoutTextureCoordinates) {
   const SurfaceSample s = sample_of(square({0, 0, 1}, 1.0f, brushed, false), 0, {0, 0, 1});
   EXPECT_EQ(s.shape.tangent, 0.0f);
 }
 
-// Red if isotropic surfaces pay for tangents, or their samples differ for a reason that no picture shows.
+// Red if isotropic surfaces pay for tangents (tried), or their samples differ for a reason that no picture
+// shows.
 TEST(Tangents, AreLeftOutForIsotropicMaterials) {
   const LafortuneLobe lobe{-1, -1, 1, 10, glm::vec3(0.3f)};
   for (const GlossyPart& part : {phong_part(glm::vec3(0.5f), 10), ggx_part(glm::vec3(0.5f), 0.2f, 0.2f),
@@ -65,7 +66,7 @@ TEST(Tangents, AreLeftOutForIsotropicMaterials) {
 }
 
 // What the tangent is for: a highlight that is narrow along u and wide along v. Red if a step between texture
-// coordinates and reflected light exchanges the axes.
+// coordinates and reflected light exchanges the axes (tried: along v instead of u).
 TEST(Tangents, StretchTheHighlightAcrossTheBrushedDirection) {
   const float angle = pi / 3.0f;
   const glm::vec3 n(0, 0, 1), u(std::cos(angle), std::sin(angle), 0.0f), v = glm::cross(n, u);

@@ -35,6 +35,7 @@ class FakeMethod : public Method {
   KnobTable knobs() const override {
     return {{"size", KnobType::integer, KnobPhase::relight, "3", 1, 10, {}, "fake", "Does nothing."}};
   }
+  std::vector<KnobPreset> presets() const override { return {{"big", "A larger size.", {{"size", "7"}}}}; }
   LightPaths light_paths(const KnobValues&) const override { return {}; }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     if (prepare_throws_) fail("broken on purpose");

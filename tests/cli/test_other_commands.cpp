@@ -153,20 +153,6 @@ TEST(ReferenceCommand, GoesOnFromWhatAnEarlierRunLeft) {
   EXPECT_EQ(run("parts", "--samples 48 --seed 2 --restart").exit_code, 0);
 }
 
-// Red if a killed run starts anew, or goes on to other bits. The checkpoint of a run is written every 30 s
-// and at its end, so the run to be killed is made of a finished part and more that is killed at once.
-TEST(ReferenceCommand, SurvivesBeingKilled) {
-  TemporaryFolder folder;
-  const std::string common = "reference --scene cornell --lights omni --view 64x48 --quiet --out ";
-  ASSERT_EQ(run_program(common + folder / "killed" + " --samples 16").exit_code, 0);
-  const ProgramResult killed = run_program(common + folder / "killed" + " --samples 65536", "ulimit -t 1; ");
-  ASSERT_NE(killed.exit_code, 0);
-  ASSERT_EQ(killed.err.find("state.relight"), std::string::npos) << killed.err;  // refused instead of killed
-  ASSERT_EQ(run_program(common + folder / "killed" + " --samples 32").exit_code, 0);
-  ASSERT_EQ(run_program(common + folder / "whole" + " --samples 32").exit_code, 0);
-  EXPECT_EQ(read_exr(folder / "killed/total.exr").pixels, read_exr(folder / "whole/total.exr").pixels);
-}
-
 // Red if a pattern is ignored, or layers are missing or do not add up.
 TEST(ReferenceCommand, WritesLayersThatAddUpAndTheLightThatAPatternTakes) {
   TemporaryFolder folder;

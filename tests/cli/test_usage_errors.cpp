@@ -80,6 +80,9 @@ TEST(UsageErrors, BadNumbersAreRefusedByName) {
   expect_usage_error(start + " --gpu vulkan", {"osmesa", "egl"});
   expect_usage_error("reference --scene cornell --lights spot --glossy x --out " + folder / "out",
                      {"none, eye, all"});
+  expect_usage_error(
+      "reference --scene cornell --lights spot --checkpoint-seconds -1 --out " + folder / "out",
+      {"--checkpoint-seconds", "-1"});
   expect_usage_error("render --scene cornell --lights spot --method path_tracing --out " + folder / "a.jpg",
                      {".exr", ".png"});
 }

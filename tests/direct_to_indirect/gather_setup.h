@@ -8,6 +8,7 @@
 #include "common/tracing/ray_tracer.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/near_field.h"
 
 namespace relight::direct_to_indirect {
 
@@ -36,11 +37,11 @@ struct GatherSetup {
   }
 
   SparseRows final_gather(const FinalGatherSettings& settings, const std::vector<float>& column_scale = {},
-                          const TrainingLights& training = {}) {
+                          const TrainingLights& training = {}, const NearField* near_field = nullptr) {
     Progress progress(true);
     StageLog log;
-    return compute_final_gather({tracer, buffer, cloud, hierarchy, column_scale, training}, settings,
-                                progress, log);
+    return compute_final_gather({tracer, buffer, cloud, hierarchy, column_scale, training, near_field},
+                                settings, progress, log);
   }
 };
 

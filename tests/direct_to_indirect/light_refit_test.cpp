@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/run/thread_limit.h"
+#include "common/sampling/random.h"
 #include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/light_refit.h"
 #include "tests/direct_to_indirect/gather_setup.h"
@@ -97,9 +98,9 @@ std::array<std::vector<double>, 4> squared_weights(const SparseRows& whole, cons
   return out;
 }
 
-// The correction of one row against the definition, in double: the gradient
-// G_S W^2 (G_S^T (c_S + d) - G^T c) + mu d vanishes. Red if the ridge, a weight, the residual or a column is
-// wrong.
+// The values of one row against the definition, in double: the gradient
+// G_S W^2 (G_S^T w - G^T c) + m (w - c_S) vanishes, m_k = ridge (H_kk + a thousandth of the mean). Red if the
+// ridge, a weight, the right side or a column is wrong.
 TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   GatherSetup s(tiny::room(), 8, 8, 256);
   const TrainingLights lights = lights_of(s, 24, 3);
@@ -118,19 +119,20 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
     const uint64_t first = cut.row_start[i], last = cut.row_start[i + 1];
     if (first == last) continue;
     const std::vector<double> c = dense_row(whole, i), f = dense_row(fitted, i);
-    std::vector<double> error(lights.count, 0.0);
-    double trace = 0.0;
+    std::vector<double> error(lights.count, 0.0), squares(last - first, 0.0);
     for (uint32_t t = 0; t < lights.count; ++t)
       for (uint32_t k = 0; k < 256; ++k) error[t] += (f[k] - c[k]) * response(k, t);
     for (uint64_t e = first; e < last; ++e)
       for (uint32_t t = 0; t < lights.count; ++t)
-        trace += w2[t] * std::pow(response(cut.entries[e].column, t), 2);
-    const double mu = 0.5 * trace / static_cast<double>(last - first);
+        squares[e - first] += w2[t] * std::pow(response(cut.entries[e].column, t), 2);
+    const double mean =
+        std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
     for (uint64_t e = first; e < last; ++e) {
       ASSERT_EQ(cut.entries[e].column, fitted.entries[e].column);
       const double d =
           static_cast<double>(fitted.entries[e].value) - static_cast<double>(cut.entries[e].value);
-      double gradient = mu * d, scale = std::abs(mu * d);
+      const double ridge = 0.5 * (squares[e - first] + 1e-3 * mean);
+      double gradient = ridge * d, scale = std::abs(ridge * d);
       for (uint32_t t = 0; t < lights.count; ++t) {
         const double term = w2[t] * response(cut.entries[e].column, t) * error[t];
         gradient += term;
@@ -143,28 +145,138 @@ TEST(LightRefit, SolvesTheRidgeRegressionOfEachRow) {
   EXPECT_GT(tested, 500);
 }
 
-// On lights that it has not seen: 0.217 -> 0.206 here. Red if the correction has the wrong sign or goes to
-// the wrong coefficients.
+// A refit small enough to try every choice: seven coefficients, of which all lanes see six.
+struct SmallRefit {
+  static constexpr size_t columns = 7, candidates = 6;
+  static constexpr uint32_t lights = 10;
+  static constexpr double ridge = 0.2;
+  TrainingLights training;
+  std::vector<LaneCoefficient> all;
+
+  explicit SmallRefit(uint64_t seed) {
+    training.count = lights;
+    for (uint32_t k = 0; k < columns; ++k) {
+      // Pairs that go together, of very different sizes: w^2 alone must not tell which one to drop.
+      const float size = std::exp2(-4.0f * random_float(seed, 3, k, 0));
+      for (uint32_t t = 0; t < lights; ++t)
+        training.response.push_back(
+            size * (random_float(seed, 1, k / 2, t) - 0.4f + 0.3f * random_float(seed, 4, k, t)));
+      LaneCoefficient c{k, {}};
+      c.value.fill((random_float(seed, 2, k, 0) - 0.5f) / size);  // all lanes alike
+      all.push_back(c);
+    }
+  }
+
+  RefitRow refitted(size_t target) const {
+    std::array<RefitRow, lanes> rows;
+    for (uint32_t k = 0; k < candidates; ++k) rows[3].entries.push_back({k, all[k].value[3]});
+    rows[3].target = target;
+    LightRefit(training, static_cast<float>(ridge)).refit(all, rows);
+    return rows[3];
+  }
+
+  double g(size_t k, size_t t) const { return static_cast<double>(training.response[k * lights + t]); }
+  double c(size_t k) const { return static_cast<double>(all[k].value[0]); }
+
+  // The objective of light_refit.h for the values w of the candidates.
+  double objective(const std::array<double, candidates>& w) const {
+    std::array<double, lights> answer{}, error{}, w2{};
+    double mean = 0.0, sum = 0.0, squares = 0.0;
+    std::array<double, candidates> h{};
+    for (size_t t = 0; t < lights; ++t) {
+      for (size_t k = 0; k < columns; ++k) answer[t] += c(k) * g(k, t);
+      error[t] = -answer[t];
+      for (size_t k = 0; k < candidates; ++k) error[t] += w[k] * g(k, t);
+      mean += lanes * answer[t] * answer[t] / lights;
+    }
+    for (size_t t = 0; t < lights; ++t) {
+      w2[t] = 1.0 / (lanes * answer[t] * answer[t] + mean);
+      sum += w2[t] * error[t] * error[t];
+      for (size_t k = 0; k < candidates; ++k) h[k] += w2[t] * g(k, t) * g(k, t);
+    }
+    for (const double x : h) squares += x / candidates;
+    for (size_t k = 0; k < candidates; ++k)
+      sum += ridge * (h[k] + 1e-3 * squares) * (w[k] - c(k)) * (w[k] - c(k));
+    return sum;
+  }
+
+  // The least objective with w[zero] = 0, by exact minimisation along one coordinate after the other.
+  double least_without(size_t zero) const {
+    std::array<double, candidates> w{};
+    for (int sweep = 0; sweep < 2000; ++sweep)
+      for (size_t k = 0; k < candidates; ++k) {
+        if (k == zero) continue;
+        std::array<double, candidates> a = w, b = w, m = w;
+        a[k] = -10.0, m[k] = 0.0, b[k] = 10.0;
+        const double fa = objective(a), fm = objective(m), fb = objective(b);
+        w[k] = 5.0 * (fa - fb) / (fa - 2.0 * fm + fb);  // vertex of the parabola
+      }
+    return objective(w);
+  }
+};
+
+// Against trying every candidate. Red if the saliency leaves out the inverse's diagonal (w^2 alone), divides
+// by the norms of its factor's columns, or drops the largest (each tried).
+TEST(LightRefit, DropsTheCandidateThatCostsLeast) {
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const SmallRefit small(seed);
+    const RefitRow row = small.refitted(SmallRefit::candidates - 1);
+    ASSERT_EQ(row.entries.size(), SmallRefit::candidates - 1);
+    std::array<double, SmallRefit::candidates> w{};
+    for (const SparseEntry& e : row.entries) w[e.column] = static_cast<double>(e.value);
+    double best = INFINITY;
+    for (size_t k = 0; k < SmallRefit::candidates; ++k) best = std::min(best, small.least_without(k));
+    EXPECT_NEAR(small.objective(w), best, 1e-4 * best + 1e-9) << "seed " << seed;
+  }
+}
+
+// Nothing to learn from: the largest stay as they are.
+TEST(LightRefit, KeepsTheLargestWhereNoTrainingLightReaches) {
+  SmallRefit small(1);
+  std::fill(small.training.response.begin(), small.training.response.end(), 0.0f);
+  const RefitRow row = small.refitted(2);
+  std::vector<float> sizes;
+  for (size_t k = 0; k < SmallRefit::candidates; ++k) sizes.push_back(std::abs(small.all[k].value[0]));
+  std::sort(sizes.rbegin(), sizes.rend());
+  ASSERT_EQ(row.entries.size(), 2u);
+  for (const SparseEntry& e : row.entries) {
+    EXPECT_GE(std::abs(e.value), sizes[1] - 1e-6f);
+    EXPECT_NEAR(e.value, small.all[e.column].value[0], 1e-6f);
+  }
+}
+
+// On lights that it has not seen. Red if the correction has the wrong sign or goes to the wrong coefficients;
+// choosing among twice as many candidates must help more than refitting alone.
 TEST(LightRefit, HelpsOnOtherLights) {
   GatherSetup s(tiny::room(), 32, 24, 1024);
   FinalGatherSettings settings = short_rows();
   const TrainingLights training = lights_of(s, 1024, 3), others = lights_of(s, 32, 4);
   const SparseRows cut = s.final_gather(settings), fitted = s.final_gather(settings, {}, training);
+  settings.refit_candidates = 2.0f;
+  const SparseRows chosen = s.final_gather(settings, {}, training);
   settings.coefficients = 1024;
   const SparseRows whole = s.final_gather(settings);
-  EXPECT_LT(mean_relative_error(fitted, whole, others), 0.97 * mean_relative_error(cut, whole, others));
+  const double error_cut = mean_relative_error(cut, whole, others),
+               error_fitted = mean_relative_error(fitted, whole, others),
+               error_chosen = mean_relative_error(chosen, whole, others);
+  EXPECT_LT(error_fitted, 0.97 * error_cut);
+  EXPECT_LT(error_chosen, 0.97 * error_fitted);
+  std::printf("errors %.4f %.4f %.4f\n", error_cut, error_fitted, error_chosen);
 }
 
 TEST(LightRefit, HasTheSameBitsForOneAndTwoThreads) {
   GatherSetup s(tiny::room(), 24, 20, 1024);
   std::vector<SparseRows> rows;
+  FinalGatherSettings settings = short_rows();
+  settings.refit_candidates = 1.5f;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    rows.push_back(s.final_gather(short_rows(), {}, lights_of(s, 40, 3)));
+    rows.push_back(s.final_gather(settings, {}, lights_of(s, 40, 3)));
   }
   ASSERT_EQ(rows[0].entries.size(), rows[1].entries.size());
   for (size_t e = 0; e < rows[0].entries.size(); ++e)
-    ASSERT_EQ(rows[0].entries[e].value, rows[1].entries[e].value);
+    ASSERT_EQ(std::pair(rows[0].entries[e].column, rows[0].entries[e].value),
+              std::pair(rows[1].entries[e].column, rows[1].entries[e].value));
 }
 
 // A view that sees nothing has no place for lights, and a dark one no row to refit.

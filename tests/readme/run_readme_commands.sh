@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every command in the README's ```sh blocks. Red if one is misspelt, lost its option or ends with an error.
-# Changed before running: full-size views and clouds become small, since a test must not take an hour, and ./reproduce and
-# ./check are run with --help only (this test is part of ./check).
+# Changed before running: full-size views, clouds, fits and the largest scene become small, since a test must not take an
+# hour, and ./reproduce and ./check are run with --help only (this test is part of ./check).
 # usage: run_readme_commands.sh SOURCE_DIR RELIGHT_BINARY
 set -euo pipefail
 
@@ -25,6 +25,7 @@ for command in "${commands[@]}"; do
     ./reproduce* | ./check*) small="${command%% *} --help" ;;
     git\ clone* | cd\ *) continue ;;
     *) small=$(sed -E -e 's/--view [0-9]+x[0-9]+/--view 48x36/' -e 's/gather_samples=[0-9]+/gather_samples=1024/' \
+         -e 's/refit_lights=[0-9]+/refit_lights=16/' -e 's/--scene temple/--scene temple:detail=0.3/' \
          -e 's/--reference-samples [0-9]+/--reference-samples 8/' -e 's/--samples [0-9]+/--samples 8/' \
          -e "s#build/release/bin/relight#$binary#" <<<"$command") ;;
   esac
@@ -32,6 +33,9 @@ for command in "${commands[@]}"; do
     echo "SKIPPED (the folder of real scenes is missing: $RELIGHT_SHARED_SCENES): $command"
     skipped=$((skipped + 1))
     continue
+  fi
+  if [[ $small == *compare*direct_to_indirect* && $small != *gather_samples* ]]; then
+    small+=" --set direct_to_indirect.gather_samples=1024"
   fi
   echo "+ $small"
   if ! bash -c "$small" >"$work/output.txt" 2>&1; then

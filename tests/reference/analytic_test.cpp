@@ -55,7 +55,8 @@ Image oracle(const Rendering& render, bool glossy) {
   return image;
 }
 
-// Red if: pi, a cosine, r^2, an albedo, or the sub-pixels are wrong in either estimator.
+// Red if (each tried): pi or an albedo is lost in a connection, the cosine where the BRDF reflects, r^2 in
+// the density of a light vertex, or all samples go to one sub-pixel.
 TEST(ParallelRectangles, OneBounceEqualsQuadrature) {
   const Rendering render = two_plates();
   const LightingState lights = lighting({omni(glm::vec3(light_position))});
@@ -73,7 +74,7 @@ TEST(ParallelRectangles, OneBounceEqualsQuadrature) {
   }
 }
 
-// Red if: direct light lacks a factor. The ceiling sees the light at 0.3 below.
+// Red if: direct light lacks a factor (tried: 1/r for 1/r^2). The ceiling sees the light at 0.3 below.
 TEST(ParallelRectangles, DirectLightIsTheInverseSquareLaw) {
   const Rendering render = two_plates();
   const PathTracerResult result =

@@ -16,7 +16,7 @@ check::Reading read(Scene scene, const LightingState& lights, const glm::dvec3& 
 
 glm::dvec3 reflected(double form_factor) { return floor_albedo * form_factor * glm::dvec3(shine); }
 
-// Red if (tried in part): the light's cosine is taken without its sign, by points drawn on it or by rays that
+// Red if (each tried): the light's cosine is taken without its sign, by points drawn on it or by rays that
 // meet it.
 TEST(AreaLights, RectanglesAndDiscsShineFromOneSide) {
   EXPECT_EQ(read(floor_scene(), lighting({rectangle_light(up, shine)})).mean.x, 0.0);
@@ -25,7 +25,7 @@ TEST(AreaLights, RectanglesAndDiscsShineFromOneSide) {
   EXPECT_GT(read(floor_scene(), lighting({disc_light({0, 1, 0}, -ahead, 0.5, shine)})).mean.x, 0.0);
 }
 
-// Red if (tried in part): triangles shine from the side of their normal only.
+// Red if (tried): triangles shine from the side of their normal only.
 TEST(AreaLights, TrianglesShineFromBothSides) {
   const double factor = check::form_factor(origin, ahead, down);
   for (const check::Rectangle& r : {up, down}) {
@@ -37,7 +37,7 @@ TEST(AreaLights, TrianglesShineFromBothSides) {
 }
 
 // A black sheet over x < 0 at half the height leaves, at the origin, the half of the light over x > 0. Red if
-// (tried in part): a shadow ray is left out, or rays meet shapes behind what they hit.
+// (both tried): a shadow ray is left out, or rays meet shapes behind what they hit.
 TEST(AreaLights, AreShadowed) {
   const check::Rectangle sheet{{-2, 0.5, -2}, {2, 0, 0}, {0, 0, 4}},
       half{{0, 1, -0.5}, {0.5, 0, 0}, {0, 0, 1}};
@@ -55,7 +55,7 @@ TEST(AreaLights, AreShadowed) {
                0.03);
 }
 
-// Red if (tried in part): rays stop at the first shape that they meet.
+// Red if (tried): rays stop at the first shape that they meet.
 TEST(AreaLights, RectanglesAndDiscsBlockNothing) {
   const check::Rectangle behind{{-0.5, 1.5, -0.5}, {1, 0, 0}, {0, 0, 1}};
   const LightingState both = lighting({rectangle_light(down, shine), rectangle_light(behind, shine)});
@@ -63,7 +63,7 @@ TEST(AreaLights, RectanglesAndDiscsBlockNothing) {
   expect_reads(read(floor_scene(), both), reflected(factor), 1e-3, 0.02);
 }
 
-// The camera looks straight into the light. Red if (tried in part): the camera sees shapes, or shapes shadow
+// The camera looks straight into the light. Red if (both tried): the camera sees shapes, or shapes shadow
 // delta lights.
 TEST(AreaLights, ShapesAreNotSeenByTheCamera) {
   Scene scene = floor_scene();
@@ -80,7 +80,7 @@ TEST(AreaLights, ShapesAreNotSeenByTheCamera) {
 }
 
 // A light built into a black ceiling, in the plane of the surface itself; tilted, so that its plane is not
-// exact in float. Red if (tried in part): the shape is not lifted off the surface: rounding then hides half
+// exact in float. Red if (tried): the shape is not lifted off the surface: rounding then hides half
 // of its light.
 TEST(AreaLights, ShineWhenTheyAreFlushWithASurface) {
   const glm::dvec3 n = glm::normalize(glm::dvec3(0.1, -1.0, 0.23));

@@ -98,7 +98,8 @@ TEST(EmittingMesh, SphereShinesAsItsSquaredRadius) {
 }
 
 // A row of one dim, one bright and one dark light: power decides how often each is asked, never how much it
-// gives. Red if (tried): the disc's area is that of its square.
+// gives. Red if (both tried): the disc's area is that of its square, or the weight of a ray leaves out with
+// which probability its light is chosen.
 TEST(AreaLights, LightOfSeveralAddsUp) {
   const check::Rectangle far{{1.2, 0.5, -0.4}, {0.5, 0, 0}, {0, 0, 0.5}};
   Scene scene = floor_scene();

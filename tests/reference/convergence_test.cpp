@@ -18,15 +18,15 @@ double relative_error(const PathTracerResult& result) {
   return std::sqrt(error / sum);
 }
 
-// Red if: direct light is left out of the norm, variance is that of one batch, or the square root is
-// forgotten.
+// Red if (each tried): direct light is left out of the norm, variance is that of one batch, or the square
+// root is forgotten.
 TEST(Convergence, StatesTheStandardErrorRelativeToTheWholePicture) {
   const Rendering render(room(), 16, 12);
   const PathTracerResult result = render(lamp, settings(Estimator::next_event, 64, 8));
   EXPECT_NEAR(result.relative_standard_error / relative_error(result), 1.0, 1e-5);
 }
 
-// Red if: the run goes on after the target, or stops above it or before the fourth batch.
+// Red if (both tried): the run goes on after the target, or stops before the fourth batch.
 TEST(Convergence, StopsAtTheTargetErrorAndNotBefore) {
   const Rendering render(room(), 16, 12);
   PathTracerSettings s = settings(Estimator::next_event, 16 * 1000, 1000);
@@ -48,8 +48,8 @@ TEST(Convergence, StopsAtTheTargetErrorAndNotBefore) {
 }
 
 // Over 64 times the batches the error falls by 8; it is an estimate from 4 batches and more, pooled over 192
-// pixels, within 15 %. Red if: the callback lacks a batch, counts samples wrongly, or gets the error
-// of the batch before.
+// pixels, within 15 %. Red if (each tried): the callback lacks a batch, counts samples wrongly, or gets the
+// error of the batch before.
 TEST(Convergence, ErrorFallsWithTheSquareRootOfTheSamples) {
   const Rendering render(room(), 16, 12);
   PathTracerSettings s = settings(Estimator::next_event, 4 * 256, 256);
@@ -68,7 +68,7 @@ TEST(Convergence, ErrorFallsWithTheSquareRootOfTheSamples) {
                 0.15 * std::sqrt(256.0 / n));
 }
 
-// Whole batches within the limit; two are always made. Red if: the limit is forgotten once a target
+// Whole batches within the limit; two are always made. Red if (tried): the limit is forgotten once a target
 // is set.
 TEST(Convergence, TimeLimitEndsARunThatMissesItsTarget) {
   const Rendering render(room(), 16, 12);
@@ -81,7 +81,7 @@ TEST(Convergence, TimeLimitEndsARunThatMissesItsTarget) {
 }
 
 // A plate, and a tiny lamp of great power that only BRDF rays can find: about one path in 4000 meets it. Red
-// if: the brightest batch is not kept, or the count is left out of the result.
+// if (both tried): the brightest batch is not kept, or the count is left out of the result.
 TEST(Convergence, CountsPixelsThatOneRareBrightPathDominates) {
   Scene scene = empty_scene(glm::vec3(0.5f));
   add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
@@ -110,7 +110,7 @@ TEST(Convergence, CountsPixelsThatOneRareBrightPathDominates) {
   EXPECT_EQ(render({}, s).fireflies, 0);
 }
 
-// Red if: pixels without light, or with few batches, count as fireflies.
+// Red if (both tried): pixels without light, or with few batches, count as fireflies.
 TEST(Convergence, FindsNoFirefliesInACleanScene) {
   const Rendering render(room(), 16, 12);
   EXPECT_EQ(render(lamp, settings(Estimator::light_vertex, 64, 8)).fireflies, 0);

@@ -103,8 +103,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 // Mean of the picture over 16 seeds each; 6 standard errors of about 30 degrees of freedom: a false alarm in
-// 7e5 for each case. Red if (tried in part): a weight has the density of the other way in the wrong measure,
-// counts the choice of the light in one way only, or is left out.
+// 7e5 for each case. Red if (both tried): a weight has the density of the
+// other way in the wrong measure, or is left out. (The choice among several lights:
+// AreaLights.LightOfSeveralAddsUp.)
 TEST_P(ExtendedLights, GiveTheSameWithAndWithoutSampling) {
   const Case& c = GetParam();
   const Rendering render(scene_of(c), 8, 6);
@@ -119,7 +120,7 @@ TEST_P(ExtendedLights, GiveTheSameWithAndWithoutSampling) {
   EXPECT_LT(6.0 * error, 0.15 * both.mean) << "too noisy to tell";
 }
 
-// The reason for either way. Red if (tried in part): small lights are not sampled on diffuse surfaces, or the
+// The reason for either way. Red if (both tried): small lights are not sampled on diffuse surfaces, or the
 // weight of the BRDF's ray is lost where a sharp lobe meets a large light.
 TEST(ExtendedLightsNoise, IsLowWhereOneOfTheTwoWaysIsGood) {
   const auto noise = [](Surface surface, Source source, bool sampled) {

@@ -32,7 +32,7 @@ double relative_difference(const Image& a, const Image& b) {
 }
 
 // The random numbers are the same, so only rounding differs: single paths may change sides at an edge, most
-// don't. Red if: an absolute epsilon is used anywhere.
+// don't. Red if: an absolute epsilon is used (tried: rays start 1e-4 off their surface).
 TEST(Invariance, ScalingTheSceneChangesNothingButRounding) {
   const Placed original = render_placed(1.0f, glm::vec3(0.0f));
   for (float scale : {1e-3f, 1e-1f, 1e3f}) {
@@ -53,8 +53,9 @@ TEST(Invariance, MovingTheSceneOneDiagonalChangesNothingButRounding) {
   EXPECT_LT(relative_difference(moved.indirect, original.indirect), 0.02);
 }
 
-// A hundred diagonals away floats resolve 1e-5 of the room. Red if: the ray offset doesn't grow with the
-// coordinates (surfaces would shadow themselves and the picture darken by more than these bounds).
+// A hundred diagonals away floats resolve 1e-5 of the room. Red if (tried): the ray offset grows with the
+// diagonal, not with the coordinates (surfaces would shadow themselves and the picture darken by more than
+// these bounds).
 TEST(Invariance, MovingTheSceneAHundredDiagonalsStaysWithinItsBound) {
   const Placed original = render_placed(1.0f, glm::vec3(0.0f));
   const Placed moved = render_placed(1.0f, glm::vec3(346.0f, -200.0f, 290.0f));
@@ -65,8 +66,8 @@ TEST(Invariance, MovingTheSceneAHundredDiagonalsStaysWithinItsBound) {
 }
 
 // Ten thousand diagonals away a float resolves 1/2000 of the room, and rays start a twenty-fifth of it off
-// their surface: no picture to trust, so the scene is reported (validation_test), but nothing breaks. Red if:
-// rays hit their own surface, which would turn whole walls black.
+// their surface: no picture to trust, so the scene is reported (validation_test), but nothing breaks. Red if
+// (tried): rays hit their own surface, which would turn whole walls black.
 TEST(Invariance, TenThousandDiagonalsAwayThePictureIsBlurredButThere) {
   const Placed original = render_placed(1.0f, glm::vec3(0.0f));
   const Placed moved = render_placed(1.0f, glm::vec3(20000.0f, -20000.0f, 20000.0f));

@@ -11,8 +11,7 @@ namespace {
 
 constexpr float almost_one = 1.0f - 0x1p-24f;
 
-// Red if: a direction leaves the cone or the unit sphere at the ends of [0,1), or narrow cones lose their
-// precision.
+// Red if (tried: 1 % too wide): a direction leaves the cone, or the unit sphere at the ends of [0,1).
 TEST(LightSampler, EmitsInsideTheConeForEveryAngle) {
   for (float outer : {0.2f, 5.0f, 45.0f, 89.0f}) {
     const LightSampler sampler(lighting({spot({1, 2, 3}, {0.3f, -1.0f, 0.2f}, 0.5f * outer, outer)}));
@@ -36,7 +35,7 @@ TEST(LightSampler, EmitsInsideTheConeForEveryAngle) {
   }
 }
 
-// Red if: the density isn't one over the solid angle times the probability of the light.
+// Red if (tried): the density of a spot is that of the whole sphere.
 TEST(LightSampler, DensitiesIntegrateToTheProbabilityOfTheLight) {
   const LightSampler sampler(
       lighting({omni({0, 0, 0}), spot({0, 0, 0}, {0, 0, 1}, 20, 30, glm::vec3(5.0f))}));
@@ -46,8 +45,7 @@ TEST(LightSampler, DensitiesIntegrateToTheProbabilityOfTheLight) {
               1.0, 1e-5);
 }
 
-// Red if: lights beyond the few that are all sampled aren't chosen by power, or the probability isn't that of
-// choose().
+// Red if (tried): the probability isn't that of choose(), which goes by power.
 TEST(LightSampler, ChoosesAmongManyLightsByPower) {
   const LightingState few = lighting({omni({0, 0, 0}), omni({0, 0, 1})});
   EXPECT_TRUE(LightSampler(few).all());
@@ -65,7 +63,8 @@ TEST(LightSampler, ChoosesAmongManyLightsByPower) {
     EXPECT_NEAR(count[light], 1e4f * sampler.next_event_probability(light), 2);
 }
 
-// Red if: a light of no power or without shadows is chosen where it mustn't be, at the ends of [0,1) too.
+// Red if (both tried): a light of no power is chosen, or a choice at u = 0 ends on a light that must not
+// emit.
 TEST(LightSampler, LeavesOutDarkLightsAndEmitsOnlyFromLightsWithShadows) {
   LightingState state =
       lighting({omni({0, 0, 0}), omni({1, 0, 0}, glm::vec3(0.0f)), omni({2, 0, 0}), omni({3, 0, 0})});

@@ -79,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
         Restriction{"sky_longer", "E D D{3,} Le", 3, most_bounces, false, false, LightEnd::environment}),
     [](const auto& test) { return std::string(test.param.name); });
 
-// 6 standard errors of 2 x 16 seeds (30 degrees of freedom): a false alarm in 7e5 for each case. Red if
-// (tried in part): a bounce is counted to its neighbour, the lobes of the first vertex or of later ones are
-// swapped, an end takes the light of another, or the glossy part of a connection counts as diffuse.
+// 6 standard errors of 2 x 16 seeds (30 degrees of freedom): a false alarm in 7e5 for each case. Red if (each
+// tried): a bounce is counted to its neighbour, the lobes of the first vertex or of later ones are swapped,
+// an end takes the light of another, or the glossy part of a connection counts as diffuse.
 TEST_P(Restricted, RenderGivesTheSameLight) {
   const Restriction& r = GetParam();
   Statistic layers, alone;
@@ -104,7 +104,7 @@ TEST_P(Restricted, RenderGivesTheSameLight) {
   EXPECT_LT(6.0 * error, 0.15 * alone.mean) << "too noisy to tell";
 }
 
-// Pixel by pixel, with the variance that layers state. Red if (tried in part): a layer's variance is that of
+// Pixel by pixel, with the variance that layers state. Red if (both tried): a layer's variance is that of
 // the whole picture, or of a batch instead of the mean.
 TEST(PathLayers, StateTheirOwnVariance) {
   const Rendering render(full_scene(), 8, 6);

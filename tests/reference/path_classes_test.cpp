@@ -37,7 +37,7 @@ void expect_same_picture(const Image& a, const Image& b) {
       ASSERT_NEAR(a.pixels[i][c], b.pixels[i][c], 1e-5f * (0.1f + b.pixels[i][c])) << i;
 }
 
-// Against all 2^4 words of lobes written out. Red if (tried in part): a lobe is lost after a glossy interior
+// Against all 2^4 words of lobes written out. Red if (each tried): a lobe is lost after a glossy interior
 // vertex, the eye's lobe counts as interior, or a survivor of Russian roulette loses a class.
 TEST(Throughput, HoldsEveryWordOfLobesInItsClass) {
   const Reflected f[4] = {{{0.2f, 0.3f, 0.4f}, {0.5f, 0.1f, 0.0f}},
@@ -66,7 +66,7 @@ TEST(Throughput, HoldsEveryWordOfLobesInItsClass) {
   }
 }
 
-// Red if (tried in part): light is left out of its class (connections at the eye), counted in two, or one
+// Red if (each tried): light is left out of its class (connections at the eye), counted in two, or one
 // lobe of a vertex is lost; a class is missing for paths between the counted bounces and the least.
 TEST(PathClasses, AddUpToThePicture) {
   const Rendering render(full_scene(), 12, 9);
@@ -87,7 +87,7 @@ TEST(PathClasses, AddUpToThePicture) {
     }
 }
 
-// Red if (tried in part): classes() is empty where nothing is sampled and the exact layers go with it.
+// Red if (tried): classes() is empty where nothing is sampled and the exact layers go with it.
 TEST(PathClasses, KeepTheExactLayersWhereNothingElseIsSampled) {
   const Rendering render(room(), 8, 6);
   PathTracerSettings s = settings(Estimator::next_event, 4, 2, bounces(0, 0));
@@ -98,7 +98,7 @@ TEST(PathClasses, KeepTheExactLayersWhereNothingElseIsSampled) {
   expect_same_picture(result.layers[0].mean, result.total());
 }
 
-// Red if (tried in part): longer paths are left out of the class "or more".
+// Red if (tried): longer paths are left out of the class "or more".
 TEST(PathClasses, OpenClassIsTheSumOfFinerOnes) {
   const Rendering render(full_scene(), 8, 6);
   PathTracerSettings s = settings(Estimator::light_vertex, 32, 4, all_paths(0, 6));
@@ -124,7 +124,7 @@ TEST(PathClasses, OpenClassIsTheSumOfFinerOnes) {
   EXPECT_EQ(open, 12) << "three ends, two lobes at the eye, two kinds of interior";
 }
 
-// Red if (tried in part): the picture holds classes that the pattern leaves, or lacks exact light that it
+// Red if (both tried): the picture holds classes that the pattern leaves, or lacks exact light that it
 // takes.
 TEST(PathClasses, PictureOfAPatternIsTheSumOfItsLayers) {
   const Rendering render(full_scene(), 8, 6);
@@ -143,7 +143,7 @@ TEST(PathClasses, PictureOfAPatternIsTheSumOfItsLayers) {
   }
 }
 
-// Red if (tried in part): the pattern changes what layers hold.
+// Red if (tried): the pattern changes what layers hold.
 TEST(PathClasses, LayersHoldAllClassesWhateverThePattern) {
   const Rendering render(full_scene(), 8, 6);
   PathTracerSettings s = settings(Estimator::next_event, 16, 4, all_paths(1, 2));
@@ -160,7 +160,7 @@ TEST(PathClasses, LayersHoldAllClassesWhateverThePattern) {
   }
 }
 
-// Red if (tried in part): two classes of a picture share a name (a layer of the EXR file would be lost).
+// Red if (tried): two classes of a picture share a name (a layer of the EXR file would be lost).
 TEST(PathClasses, HaveNamesOfTheirOwn) {
   const PathClasses classes(3, all_paths(0, 9), true, true, true);
   std::set<std::string> names;
@@ -170,7 +170,7 @@ TEST(PathClasses, HaveNamesOfTheirOwn) {
   EXPECT_TRUE(names.contains("b1.D.D.local") && names.contains("b4+.G.some_G.environment"));
 }
 
-// Red if (tried in part): a sample that is not a number is looked for in a class that can't be.
+// Red if (tried): a sample that is not a number is looked for in a class that can't be.
 TEST(PathClasses, CountSamplesThatAreNotFinite) {
   Scene scene = room();
   scene.materials[0].diffuse.y = std::numeric_limits<float>::quiet_NaN();
@@ -185,7 +185,7 @@ TEST(PathClasses, CountSamplesThatAreNotFinite) {
   }
 }
 
-// Red if (tried in part): a pattern without classes, or one that selects nothing, gives a black picture
+// Red if (each tried): a pattern without classes, or one that selects nothing, gives a black picture
 // without a word.
 TEST(PathClasses, RefusePatternsThatCannotBeAnswered) {
   const Rendering render(room(), 8, 6);

@@ -30,7 +30,7 @@ std::set<std::string> names(const std::string& pattern,
 
 using Names = std::set<std::string>;
 
-// Red if (tried in part): D and G are swapped, the eye's lobe is taken for an interior one, or an end is
+// Red if (each tried): D and G are swapped, the eye's lobe is taken for an interior one, or an end is
 // misread.
 TEST(PathPattern, SelectsTheClassesThatItDescribes) {
   EXPECT_EQ(names("E L"), (Names{"seen.area", "seen.environment"}));
@@ -50,7 +50,7 @@ TEST(PathPattern, SelectsTheClassesThatItDescribes) {
   EXPECT_EQ(names("E (D|G)* L").size(), all_classes().size());
 }
 
-// Red if (tried in part): an optional or counted repetition is off by one, or S is not G.
+// Red if (both tried): an optional or counted repetition is off by one, or S is not G.
 TEST(PathPattern, ReadsWaysOfWritingTheSame) {
   const auto same = [](const std::string& a, const std::string& b) { EXPECT_EQ(names(a), names(b)) << a; };
   same("EDDL", " E  D D\tL ");
@@ -67,8 +67,8 @@ TEST(PathPattern, ReadsWaysOfWritingTheSame) {
   same("E (D|) D L", "E D? D L");
 }
 
-// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried
-// in part): only the next few lengths are looked at.
+// What is longer than the counted bounces is one class, and must be taken or left as a whole. Red if (tried):
+// only the next few lengths are looked at.
 TEST(PathPattern, DecidesOpenClassesForAllLengths) {
   EXPECT_EQ(names("E D{0,4} L").count("b4+.D.D.area"), 0u);
   EXPECT_EQ(names("E (D D D|D D D D D)* D* L"), names("E D* L"));
@@ -82,7 +82,7 @@ TEST(PathPattern, DecidesOpenClassesForAllLengths) {
   }
 }
 
-// Red if (tried in part): a class that is cut is taken or left without a word.
+// Red if (both tried): a class that is cut is taken or left without a word.
 TEST(PathPattern, RefusesToCutAClass) {
   for (const char* pattern : {"E D D G L", "E D G D L", "E D .* G L", "E D G G L"}) {
     const std::string message = error_message([&] { names(pattern, all_classes(3, 3)); });
@@ -92,7 +92,7 @@ TEST(PathPattern, RefusesToCutAClass) {
   EXPECT_EQ(names("E D (D G|G D|G G) Lp", all_classes(3, 3)), Names{"b2.D.some_G.local"}) << "not cut";
 }
 
-// Red if (tried in part): the caret stands a column beside the character, or the pattern isn't repeated.
+// Red if (both tried): the caret stands a column beside the character, or the pattern isn't repeated.
 TEST(PathPattern, PointsAtTheCharacterThatIsWrong) {
   const auto expect_caret = [](const std::string& pattern, size_t column, const char* why) {
     const std::string message = error_message([&] { names(pattern); });
@@ -117,7 +117,7 @@ TEST(PathPattern, PointsAtTheCharacterThatIsWrong) {
   expect_caret("E * L", 2, "expected a vertex");
 }
 
-// Red if (tried in part): repetitions of repetitions fill the memory.
+// Red if (tried): repetitions of repetitions fill the memory.
 TEST(PathPattern, RefusesPatternsThatAreTooLarge) {
   for (const char* pattern : {"E ((D{1000}){1000}){1000} L", "E .* G .{40} L"}) {
     const std::string message = error_message([&] { names(pattern); });

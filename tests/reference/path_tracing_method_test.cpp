@@ -26,8 +26,8 @@ struct Prepared_ {
   }
 };
 
-// Red if: the method counts other paths than its declared ones, or a reference with the same seed shares its
-// noise (equal images would make the method look perfect).
+// Red if (both tried): the method counts other paths than its declared ones, or a reference with the same
+// seed shares its noise (equal images would make the method look perfect).
 TEST(PathTracingMethod, ConvergesToTheReferenceWithItsOwnNoise) {
   Prepared_ p;
   p.knobs.set("samples", "256");
@@ -49,7 +49,7 @@ TEST(PathTracingMethod, ConvergesToTheReferenceWithItsOwnNoise) {
   EXPECT_EQ(log.counters().at("samples_per_pixel"), 256);
 }
 
-// Red if: the budget is ignored, in the wrong unit, or doesn't hold direct light.
+// Red if (both tried): the budget is ten times too long, or a hundred times too short.
 TEST(PathTracingMethod, SpendsItsTimeBudget) {
   Prepared_ p;
   p.knobs.set("time_ms", "300");

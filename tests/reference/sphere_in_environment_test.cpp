@@ -52,7 +52,8 @@ void read_places(const RadianceMeter& meter, const Effort& effort, Expect expect
 
 // Radiance L from everywhere gives albedo L. Red if: light is lost at grazing angles or on the side of the
 // shading normal, a surface hides itself, or the environment counts twice. Tried: throughput x 1.02, the ray
-// offset towards the inside, misses counted one bounce later.
+// offset towards the inside, misses counted one bounce later, light that comes from behind the facet but not
+// from behind its shading normal counted.
 TEST(SphereInEnvironment, UniformLightIsReflectedByTheAlbedo) {
   Environment uniform;
   uniform.radiance = {2.0f, 1.0f, 0.5f};

@@ -73,8 +73,8 @@ void expect_sphere(const Material& material) {
   EXPECT_EQ(seen, 4);
 }
 
-// Red if: the density is that of another model, the lobe's share of samples is left out of it, a lobe is not
-// counted at the eye, or light from below the horizon counts. Tried: the glossy part x 1.05.
+// Red if (each tried): the density is that of another model, the lobe's share of samples is left out of it, a
+// lobe is not counted at the eye, or the glossy part is 5 % too bright.
 TEST(SphereOfEachModel, Lambert) {
   Material material;
   material.diffuse = glm::vec3(0.7f);

@@ -25,7 +25,7 @@ BrdfParams make_brdf(float diffuse, float glossy, float exponent) {
   return {glm::vec3(diffuse), exponent, glm::vec3(glossy), {}};
 }
 
-// Red if: a frame degenerates near +z, -z or anywhere else, or is left-handed.
+// Red if (both tried): a frame degenerates near -z, or the sign of a term is wrong.
 TEST(Frame, IsOrthonormalAndRightHandedForEveryNormal) {
   std::vector<glm::vec3> normals = {{0, 0, 1},  {0, 0, -1},     {1, 0, 0},
                                     {0, -1, 0}, {1e-4f, 0, -1}, {0, 1e-20f, -1}};
@@ -44,7 +44,8 @@ TEST(Frame, IsOrthonormalAndRightHandedForEveryNormal) {
   }
 }
 
-// Red if: sqrt of a negative number, pow(0, 0), or a zero vector comes up at the ends of [0,1).
+// Red if: sqrt of a negative number (tried: 1 - cos^2 rounded down), pow(0, 0), or a zero vector comes up at
+// the ends of [0,1).
 TEST(BrdfSampling, IsFiniteAtTheEndsOfTheUnitSquareForAllExponents) {
   const glm::vec3 n = glm::normalize(glm::vec3(0.3f, -0.2f, 0.9f));
   const glm::mat3 frame = frame_around(n);
@@ -61,7 +62,8 @@ TEST(BrdfSampling, IsFiniteAtTheEndsOfTheUnitSquareForAllExponents) {
           }
 }
 
-// Red if: a weight, the (n+1)/(2 pi) or 1/pi is wrong. The lobe reaches below the surface at grazing angles.
+// Red if: a weight, the (n+1)/(2 pi) or 1/pi is wrong (tried: n+2; the diffuse part not weighted). The lobe
+// reaches below the surface at grazing angles.
 TEST(BrdfSampling, DensityIntegratesToOneOverTheSphere) {
   const int rows = 2000, columns = 400;
   for (float exponent : {0.0f, 3.0f, 60.0f, 200.0f})
@@ -78,8 +80,8 @@ TEST(BrdfSampling, DensityIntegratesToOneOverTheSphere) {
 }
 
 // Chi-square of sampled directions against the density over equal-solid-angle bins of the sphere. Red if:
-// sampling and density disagree (exponent, lobe probability, mirror direction, order of u). With 127 degrees
-// of freedom 200 is beyond the 0.9999 quantile.
+// sampling and density disagree (each tried: exponent, mirror direction, one number used twice). With 127
+// degrees of freedom 200 is beyond the 0.9999 quantile.
 TEST(BrdfSampling, FrequenciesFollowTheDensity) {
   const int rows = 8, columns = 16, fine = 24, samples = 1 << 16;
   for (float exponent : {0.0f, 4.0f, 40.0f})
@@ -121,8 +123,8 @@ TEST(BrdfSampling, FrequenciesFollowTheDensity) {
     }
 }
 
-// Red if: the reported density of a sample isn't that of brdf_pdf, or diffuse_only still uses the glossy
-// lobe.
+// Red if (both tried): the reported density of a sample isn't that of brdf_pdf, or diffuse_only still uses
+// the glossy lobe.
 TEST(BrdfSampling, DiffuseOnlyIgnoresTheGlossyLobe) {
   const BrdfParams brdf = make_brdf(0.2f, 0.7f, 50.0f);
   const glm::vec3 n(0, 0, 1), wo = direction(0.5, 0.0);
@@ -134,7 +136,8 @@ TEST(BrdfSampling, DiffuseOnlyIgnoresTheGlossyLobe) {
   EXPECT_EQ(sample_brdf(make_brdf(0.0f, 0.0f, 50.0f), n, wo, 0.5f, {0.5f, 0.5f}, false).pdf, 0.0f);
 }
 
-// Red if: f_r depends on which direction is which (Helmholtz); light and eye sub-paths would disagree.
+// Red if (tried: the lobe times the cosine of wo): f_r depends on which direction is which (Helmholtz); light
+// and eye sub-paths would disagree.
 TEST(Brdf, IsReciprocal) {
   const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
   const glm::mat3 frame = frame_around(n);
@@ -147,8 +150,8 @@ TEST(Brdf, IsReciprocal) {
   }
 }
 
-// Red if: the normalisation of the glossy lobe is off: albedo `glossy` at normal incidence, never more
-// elsewhere.
+// Red if (tried: n+3): the normalisation of the glossy lobe is off: albedo `glossy` at normal incidence,
+// never more elsewhere.
 TEST(Brdf, GlossyAlbedoIsReachedAtNormalIncidenceAndNeverExceeded) {
   const int samples = 1 << 14;
   for (float exponent : {0.0f, 2.0f, 20.0f, 2000.0f})

@@ -31,7 +31,7 @@ Scene plane_scene() {
   return scene;
 }
 
-// Red if: pixel or sub-pixel centres, the aspect ratio, the row order or the up direction are off.
+// Red if (each tried): pixel centres, the order of sub-pixels, the aspect ratio or the row order are off.
 TEST(DeepFrameBuffer, SamplesLieWhereAnalyticRaysMeetAPlane) {
   const Scene scene = plane_scene();
   const RayTracer tracer(scene);
@@ -53,7 +53,7 @@ TEST(DeepFrameBuffer, SamplesLieWhereAnalyticRaysMeetAPlane) {
     }
 }
 
-// Red if: positions leave the surface, normals point inwards, or misses are marked valid.
+// Red if (both tried): normals point inwards, or misses are marked valid.
 TEST(DeepFrameBuffer, SamplesLieOnASphereWithItsNormals) {
   Scene scene = tiny::empty_scene();
   tiny::add_sphere(scene, glm::vec3(0.0f), 1.0f, 200);
@@ -74,8 +74,8 @@ TEST(DeepFrameBuffer, SamplesLieOnASphereWithItsNormals) {
   EXPECT_FALSE(buffer.indirect[0].valid);
 }
 
-// Red if: depth differences instead of tangent-plane distances are compared: a grazing floor would be all
-// edges.
+// Red if (tried): depth differences instead of tangent-plane distances are compared: a grazing floor would be
+// all edges.
 TEST(EdgeMask, AFlatFloorAtAGrazingAngleHasNoEdges) {
   Scene scene = plane_scene();
   scene.camera = {{0, -30, 0.5f}, {0, 0, 0}, {0, 0, 1}, 0.6f};
@@ -85,8 +85,8 @@ TEST(EdgeMask, AFlatFloorAtAGrazingAngleHasNoEdges) {
   EXPECT_EQ(buffer.edge_share(), 0.0);
 }
 
-// Two parallel planes, one half a unit in front of the other on the left half of the picture. Red if: a
-// direction of the neighbourhood, the sub-samples or the tolerance is left out.
+// Two parallel planes, one half a unit in front of the other on the left half of the picture. Red if (both
+// tried): a direction of the neighbourhood is left out, or the tolerance is not relative to the distance.
 TEST(EdgeMask, AStepBetweenTwoPlanesMarksTheColumnsBesideIt) {
   Scene scene = tiny::empty_scene();
   tiny::add_quad(scene, {-9, -9, 0}, {18, 0, 0}, {0, 18, 0});
@@ -102,7 +102,7 @@ TEST(EdgeMask, AStepBetweenTwoPlanesMarksTheColumnsBesideIt) {
   for (uint8_t e : edge_mask(buffer, 0.2f, 0.9f)) EXPECT_EQ(e, 0);  // 0.5 is less than 0.2 x distance 4
 }
 
-// Red if: normals are not compared, or their tolerance is a sine.
+// Red if (both tried): normals are not compared, or their tolerance is a sine.
 TEST(EdgeMask, ACreaseMarksPixelsOnBothSides) {
   Scene scene = tiny::empty_scene();
   tiny::add_quad(scene, {0, -9, 0}, {9, 0, -3}, {0, 18, 0});
@@ -118,7 +118,7 @@ TEST(EdgeMask, ACreaseMarksPixelsOnBothSides) {
   }
 }
 
-// Red if: a sub-sample or a neighbour that misses everything isn't a discontinuity.
+// Red if (tried): a neighbour that misses everything isn't a discontinuity.
 TEST(EdgeMask, TheSilhouetteAgainstNothingIsAnEdge) {
   Scene scene = tiny::empty_scene();
   tiny::add_quad(scene, {-9, -9, 0}, {9, 0, 0}, {0, 18, 0});
@@ -128,6 +128,19 @@ TEST(EdgeMask, TheSilhouetteAgainstNothingIsAnEdge) {
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 20, 15});
   for (int x = 0; x < 20; ++x)
     EXPECT_EQ(buffer.edge[static_cast<size_t>(7 * 20 + x)], x == 9 || x == 10) << x;
+}
+
+// A strip a quarter of a pixel wide, before the left sub-samples of one column: no pixel's centre sees it.
+// Red if sub-samples are not looked at.
+TEST(EdgeMask, AThingThatOnlySubSamplesSeeIsAnEdge) {
+  Scene scene = tiny::empty_scene();
+  tiny::add_quad(scene, {-9, -9, 0}, {18, 0, 0}, {0, 18, 0});
+  tiny::add_quad(scene, {-0.827f, -9, 0.5f}, {0.04f, 0, 0}, {0, 18, 0});
+  scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40.0f};
+  finish_scene(scene);
+  const RayTracer tracer(scene);
+  const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 20, 15});
+  for (int x = 0; x < 20; ++x) EXPECT_EQ(buffer.edge[static_cast<size_t>(7 * 20 + x)], x == 5) << x;
 }
 
 TEST(DeepFrameBuffer, RefusesSizesOutOfRange) {

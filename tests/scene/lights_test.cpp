@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/lights/light.h"
+#include "common/lights/light_words.h"
 #include "common/run/error.h"
 
 namespace relight {
@@ -18,6 +18,20 @@ Light spot() {
   light.inner_degrees = 20.0f;
   light.outer_degrees = 30.0f;
   return light;
+}
+
+// Red if a name is missing, or stands in another place than its type has in the enumeration.
+TEST(LightTypes, HaveNamesThatAreReadBack) {
+  ASSERT_EQ(light_type_names().size(), static_cast<size_t>(LightType::disc) + 1);
+  EXPECT_EQ(to_string(LightType::rectangle), "rectangle");
+  for (const std::string& name : light_type_names()) EXPECT_EQ(to_string(light_type_of(name)), name);
+  try {
+    light_type_of("sun");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    for (const char* word : {"'sun'", "omni", "spot", "directional", "rectangle", "disc"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
 }
 
 // Red if the cosines are swapped, degrees are taken for radians, or the axis is not normalised.

@@ -1,8 +1,8 @@
 #include "common/scene/files/light_file.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "common/lights/light_words.h"
 #include "common/run/error.h"
 
 namespace relight {
@@ -44,9 +44,8 @@ const char* strength_of(LightType type) {
 Light read_light(const TomlTable& table) {
   Light light;
   table.require("type");
-  const std::vector<std::string> types{"omni", "spot", "directional", "rectangle", "disc"};
-  const std::string type = table.text("type", "", types);
-  light.type = static_cast<LightType>(std::find(types.begin(), types.end(), type) - types.begin());
+  const std::string type = table.text("type", "", light_type_names());
+  light.type = light_type_of(type);
   light.name = table.text("name", type);
   const char* strength = strength_of(light.type);
   table.require(strength);
