@@ -71,8 +71,9 @@ const std::vector<Form> all_forms(std::begin(forms), std::end(forms));
 
 // Pictures whose sides are no multiple of any tile or patch; a picture of one row; columns that need more
 // than 16 bits. Tried, each red: a tile's list read from its neighbour's start; x and y of a block's corner
-// in the atlas swapped; the height of a patch taken for its width; a slab's first tile or row left out; the
-// rectangle's size in the head of a block shifted by one bit; 16-bit columns for the wide matrix.
+// in the atlas swapped; the height of a patch taken for its width; a slab's first tile or first row left out;
+// the rectangle's size in the head of a block shifted by one bit; a block's origin left out; the third of
+// four bytes read twice; a column shifted by one bit; rows of the picture one pixel too long in the resolve.
 TEST(ProductForms, EveryFormAndFormatIsWithinItsBoundOfTheOracle) {
   const auto context = gpu::Context::create("osmesa");
   {
@@ -89,7 +90,7 @@ TEST(ProductForms, EveryFormAndFormatIsWithinItsBoundOfTheOracle) {
   }
 }
 
-// Red if a sum starts from what the last product left behind, or if the order of additions depends on timing.
+// Tried: quads blended without clearing the target is red.
 TEST(ProductForms, EqualInputsGiveEqualBits) {
   const auto context = gpu::Context::create("osmesa");
   const SparseRows m = check::image_like_matrix(61, 37, 500, 40);
@@ -104,8 +105,8 @@ TEST(ProductForms, EqualInputsGiveEqualBits) {
   }
 }
 
-// Tried: < instead of <= in is_culled (lights of zero are drawn); norms without the rows' scale; the counters
-// not cleared between products.
+// Tried, each red: < instead of <= in is_culled (lights of zero are drawn); counters not cleared between
+// products (together with other mutations).
 TEST(ProductCulling, EpsilonZeroSkipsOnlyWhatGivesNothingAndLargerOnesLoseWhatTheyMay) {
   const auto context = gpu::Context::create("osmesa");
   const SparseRows m = check::image_like_matrix(61, 37, 500, 40);
