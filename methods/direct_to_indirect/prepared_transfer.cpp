@@ -1,6 +1,7 @@
 #include "methods/direct_to_indirect/prepared_transfer.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
@@ -9,6 +10,7 @@
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
+#include "methods/direct_to_indirect/multi_bounce_light.h"
 
 namespace relight::direct_to_indirect {
 namespace {
@@ -53,6 +55,14 @@ class PreparedTransfer : public Prepared {
         gather_direct_(static_cast<int64_t>(gather_.size()) * 16),
         view_direct_(static_cast<int64_t>(view_.size()) * 16),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
+    if (artefact.multi_bounce.bounces > 1) {
+      report_share_beyond(artefact.multi_bounce, context.log);
+      bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud,
+                       context.gpu.max_storage_block_bytes());
+      context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
+      context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
+      context.log.bytes("multi_bounce_light", bounces_->result_bytes());
+    }
     make_product(context);
     context.log.bytes("gather_samples", gather_.bytes());
     context.log.bytes("view_samples", view_.bytes());
@@ -98,9 +108,15 @@ class PreparedTransfer : public Prepared {
   }
 
   void transfer_on_gpu(StageLog& log) {
+    const gpu::Buffer* light = &gather_direct_;
+    if (bounces_) {
+      StageTimer timer(log, "multi_bounce");
+      light = &bounces_->with_bounces(gather_direct_, haar_);
+      gpu::finish();
+    }
     {
       StageTimer timer(log, "wavelet_transform");
-      haar_.forward(gather_direct_);
+      haar_.forward(*light);
       gpu::finish();
     }
     {
@@ -120,6 +136,13 @@ class PreparedTransfer : public Prepared {
     {
       StageTimer timer(log, "wavelet_transform");
       for (const glm::vec4& v : gather_direct_.download<glm::vec4>()) g.emplace_back(v);
+    }
+    if (bounces_) {
+      StageTimer timer(log, "multi_bounce");
+      g = bounces_->with_bounces(g);
+    }
+    {
+      StageTimer timer(log, "wavelet_transform");
       g = wavelet::forward(g);
     }
     StageTimer timer(log, "transfer");
@@ -142,6 +165,7 @@ class PreparedTransfer : public Prepared {
   DirectLighting lighting_;
   wavelet::HaarGpu haar_;
   Reconstruction reconstruction_;
+  std::optional<MultiBounceLight> bounces_;  // none with one bounce
   gpu::Buffer gather_direct_, view_direct_, indirect_;
   std::unique_ptr<TransferProductGpu> gpu_product_;  // of the device; neither for the oracle
   std::unique_ptr<TransferProduct> cpu_product_;

@@ -118,6 +118,7 @@ TEST(Transfer, CacheGivesTheSamePictureAndKnowsEveryPrecomputeKnob) {
     // Any value that is not the default.
     const std::string other =
         knob.name == "gather_samples" ? "4096"
+        : knob.name == "bounces"      ? "2"
         : knob.type == KnobType::choice
             ? knob.choices.back() == knob.default_value ? knob.choices.front() : knob.choices.back()
         : knob.type == KnobType::integer ? "17"
