@@ -27,6 +27,8 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
+       "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
        "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
       {"support_exponent", real, precompute, "1", 0, 1, {}, "truncation",
@@ -60,8 +62,11 @@ KnobTable knob_table() {
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
            "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h): twice the precompute time, the same relight time.",
-           {{"support_exponent", "0.8"}, {"refit_lights", "2048"}, {"refit_candidates", "1.5"}}}};
+           "(light_refit.h); rays instead of the clamp between close points (near_field.h).",
+           {{"support_exponent", "0.8"},
+            {"refit_lights", "2048"},
+            {"refit_candidates", "1.5"},
+            {"near_field", "hemisphere"}}}};
 }
 
 }  // namespace relight::direct_to_indirect

@@ -23,6 +23,7 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.disc_elements = knobs.choice("near_field") == "disc";
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
+  settings.energy_fraction = knobs.real("energy_fraction");
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
   settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
