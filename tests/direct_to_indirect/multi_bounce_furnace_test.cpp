@@ -44,7 +44,8 @@ void expect_mean_one(const RowSums& sums, double bound) {
 
 // A sphere has no edges over which a disc could hang. 300 photons a row: deviation 1/sqrt(299) = 5.8 %,
 // somewhat more where they differ in weight; that of the mean over 1024 rows of 300,000 hits is 0.2 %, and
-// the bounds are five deviations. Red if flux, albedo, pi, n or the disc has a wrong factor. TRIED_SPHERE
+// the bounds are five deviations. Red if flux, albedo, pi, n or the disc has a wrong factor. No mutation
+// tried yet.
 TEST(MultiBounceFurnace, PhotonRowsInASphereSumToTheSeries) {
   const BounceSetup s(closed_sphere(grey_to_black), samples, true);
   const MultiBounce m = s.compute(quick_settings(BounceKind::photons, 4));
@@ -87,7 +88,7 @@ TEST(MultiBounceFurnace, TransferRowsInABoxSumToTheSeriesAwayFromEdges) {
 }
 
 // Closed rooms of albedo 1 lose nothing, of albedo 0 have no bounce. Red if a path of no energy is followed,
-// or a divergent series gives a finite share. TRIED_ALBEDO
+// or a divergent series gives a finite share. No mutation tried yet.
 TEST(MultiBounceFurnace, AlbedoOneKeepsAllLightAndAlbedoZeroNone) {
   for (const BounceKind kind : {BounceKind::photons, BounceKind::transfer}) {
     const BounceSetup white(closed_sphere(glm::vec3(1.0f)), samples, true),
@@ -108,7 +109,7 @@ TEST(MultiBounceFurnace, AlbedoOneKeepsAllLightAndAlbedoZeroNone) {
 
 // Of albedo 0.95, a^4 = 81 % of all light comes after the fourth bounce: reported, with a warning; of albedo
 // 0.3, 0.8 %: no warning. Red if the series starts at the wrong bounce (a^3 or a^5 is 4 points off). Tried:
-// the tail without its first ratio. TRIED_SHARE
+// the tail without its first ratio.
 TEST(MultiBounceFurnace, ReportsTheShareOfLightBeyondTheLastBounce) {
   for (const BounceKind kind : {BounceKind::photons, BounceKind::transfer})
     for (const float a : {0.95f, 0.3f}) {

@@ -47,7 +47,7 @@ struct Floor {
   }
 };
 
-// Red if the pruned result set drops a near photon. TRIED_NEAREST
+// Red if the pruned result set drops a near photon. No mutation tried yet.
 TEST(NearestPhotons, AreThoseOfBruteForce) {
   const PhotonMap map = random_floor(5000, {0, 0, 1});
   const NearestPhotons nearest(map.photons);
@@ -73,7 +73,8 @@ TEST(NearestPhotons, AreThoseOfBruteForce) {
 }
 
 // Density 1 of weights (1, 1/2, 1/4): with 5 neighbours a row sum is 1 on average if the fifth is left out,
-// 5/4 if it counts. Its deviation is 1/sqrt(3); 64 rows from 40 maps whose discs hardly overlap. TRIED_FEW
+// 5/4 if it counts. Its deviation is 1/sqrt(3); 64 rows from 40 maps whose discs hardly overlap. No mutation
+// tried yet.
 TEST(PhotonRows, FewNeighboursGiveAnUnbiasedDensity) {
   const Floor samples;
   glm::dvec3 mean(0.0);
@@ -97,7 +98,7 @@ TEST(PhotonRows, TruncationKeepsTheRowSum) {
 }
 
 // Light that hit the back of a sheet, or a wall at right angles, does not light its front; what hit a surface
-// 30 degrees off does. TRIED_SIDE
+// 30 degrees off does. No mutation tried yet.
 TEST(PhotonRows, CountPhotonsOfTheSameSideOnly) {
   const Floor samples;
   const float angle = std::numbers::pi_v<float> / 6.0f;
@@ -144,7 +145,7 @@ TEST(Photons, KeepTheirFluxTimesTheAlbedosPassed) {
 }
 
 // How many photons of a face land on the opposite one, and on the nearer halves of its neighbours, is
-// analytic. Red if directions are spread evenly over the hemisphere. TRIED_LAMBERT
+// analytic. Red if directions are spread evenly over the hemisphere. No mutation tried yet.
 TEST(Photons, LeaveASampleByLambertsLaw) {
   const BounceSetup s(closed_box(glm::vec3(0.5f)), 1024, true);
   MultiBounceSettings settings = quick_settings(BounceKind::photons, 2);
@@ -167,7 +168,7 @@ TEST(Photons, LeaveASampleByLambertsLaw) {
   EXPECT_NEAR(low_half / emitted, 4.0 * check::form_factor(floor, half_wall), 0.006);
 }
 
-// Red if a random number or a sum depends on the thread. TRIED_BITS
+// Red if a random number or a sum depends on the thread. No mutation tried yet.
 TEST(MultiBounce, HasTheSameBitsForOneAndTwoThreads) {
   const BounceSetup s(tiny::room(), 1024, false);
   for (const BounceKind kind : {BounceKind::photons, BounceKind::transfer}) {

@@ -81,7 +81,7 @@ Difference difference(BounceKind kind, int coefficients) {
 
 // The floor's photons are about a sixth of the 1200 in a disc: 7 % of noise a sample. 6 deviations of the
 // mean over all photons of the floor are 2 %. Red if a colour is taken from the wrong end of a path, or hits
-// of the first bounce only are kept. TRIED_RADIOSITY
+// of the first bounce only are kept. No mutation tried yet.
 TEST(MultiBounceRadiosity, PhotonsGiveTheSolutionButForTheirNoise) {
   const Difference all = difference(BounceKind::photons, samples),
                    forty = difference(BounceKind::photons, 40);

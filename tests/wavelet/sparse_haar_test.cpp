@@ -19,7 +19,8 @@ std::vector<SparseValue> random_values(uint32_t n, float share) {
   return values;
 }
 
-// Red if a child goes to the wrong quarter, a level's offset is wrong or a lone child is dropped. TRIED_HAAR
+// Red if a child goes to the wrong quarter, a level's offset is wrong or a lone child is dropped. No mutation
+// tried yet.
 TEST(SparseHaar, EqualsTheDenseTransform) {
   for (const uint32_t n : {1u, 4u, 64u, 4096u})
     for (const float share : {0.001f, 0.1f, 1.0f}) {

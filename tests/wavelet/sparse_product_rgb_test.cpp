@@ -42,7 +42,7 @@ std::vector<glm::vec4> padded(const std::vector<glm::dvec3>& x) {
   return out;
 }
 
-// Red if a row takes a neighbour's entries or channels are mixed. TRIED_DENSE
+// Red if a row takes a neighbour's entries or channels are mixed. No mutation tried yet.
 TEST(SparseRowsRgb, MultiplyEqualsTheDenseProductChannelByChannel) {
   const SparseRowsRgb m = random_matrix(50, 64);
   const std::vector<glm::dvec3> x = random_vector(64);
@@ -63,7 +63,8 @@ TEST(SparseRowsRgb, RefusesAVectorOfTheWrongLength) {
   EXPECT_THROW(multiply(random_matrix(3, 16), random_vector(15)), Error);
 }
 
-// Red if a slab forgets its first row, or GLSL reads the entry's words in another order. TRIED_SHADER
+// Red if a slab forgets its first row, or GLSL reads the entry's words in another order. No mutation tried
+// yet.
 TEST(SparseProductRgbGpu, AgreesWithTheCpuInOneSlabAndInMany) {
   const auto context = gpu::Context::create("osmesa");
   const size_t rows = 500;
@@ -88,7 +89,7 @@ TEST(SparseProductRgbGpu, RefusesARowLargerThanAStorageBlock) {
   EXPECT_THROW(SparseProductRgbGpu(random_matrix(10, 256), 64), Error);
 }
 
-// Red if the last, incomplete group is left out or the target is overwritten. TRIED_SUM
+// Red if the last, incomplete group is left out or the target is overwritten. No mutation tried yet.
 TEST(VectorSumGpu, AddsEveryElement) {
   const auto context = gpu::Context::create("osmesa");
   const std::vector<glm::dvec3> a = random_vector(1000);
