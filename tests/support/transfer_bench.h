@@ -1,7 +1,10 @@
 // Direct-to-indirect transfer on a small view of any scene, for tests that relight it again and again.
 #pragma once
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,10 +21,14 @@ class TransferBench {
  public:
   using Knobs = std::vector<std::pair<std::string, std::string>>;
 
-  explicit TransferBench(Scene s, int width = 60, int height = 45)
+  explicit TransferBench(Scene s, int width = 40, int height = 30)
       : scene(std::move(s)),
         tracer(scene),
         buffer(make_deep_frame_buffer(scene, tracer, {scene.camera, width, height})) {}
+
+  ~TransferBench() { std::filesystem::remove_all(folder); }
+  TransferBench(const TransferBench&) = delete;
+  TransferBench& operator=(const TransferBench&) = delete;
 
   // 1024 gather samples unless the knobs say otherwise.
   std::unique_ptr<Prepared> prepare(const Knobs& knobs) {
@@ -37,7 +44,10 @@ class TransferBench {
   DeepFrameBuffer buffer;
   std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
   std::unique_ptr<Method> method = make_direct_to_indirect();
-  ArtefactCache cache{{}, false};
+  // One precompute for all devices and relight knobs.
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
+  ArtefactCache cache{folder, true};
   Progress progress{true};
 };
 
