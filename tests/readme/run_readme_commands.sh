@@ -37,6 +37,9 @@ for command in "${commands[@]}"; do
   if [[ $small == *compare*direct_to_indirect* && $small != *gather_samples* ]]; then
     small+=" --set direct_to_indirect.gather_samples=1024"
   fi
+  if [[ $small == *--preset\ best* ]]; then
+    small+=" --set direct_to_indirect.refit_lights=16"
+  fi
   echo "+ $small"
   if ! bash -c "$small" >"$work/output.txt" 2>&1; then
     cat "$work/output.txt"
