@@ -13,7 +13,7 @@
 namespace relight {
 
 constexpr int tile_width = 16, tile_height = 8;
-constexpr int tile_group = 4;  // pixels side by side that one invocation works on
+constexpr int tile_group = 4;  // pixels side by side: the unit of a rectangle's width
 constexpr uint32_t tile_max_columns = 1u << 22;
 
 struct TileBlocks {

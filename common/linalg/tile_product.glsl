@@ -1,8 +1,9 @@
-// One workgroup a screen tile of 16x8 pixels, four pixels side by side an invocation (tile_product_gpu.h); the words of
-// a block are described in screen_tiles.h.
+// One workgroup a screen tile of 16x8 pixels, one row of the tile an invocation (tile_product_gpu.h); the words of a block
+// are described in screen_tiles.h. A whole row an invocation, because what a block costs under llvmpipe is reading its
+// head and its light, once for each eight invocations.
 #include "common/linalg/culling.glsl"
 #include "common/linalg/stored_weights.glsl"
-layout(local_size_x = 32) in;
+layout(local_size_x = 8) in;
 layout(std430, binding = 0) readonly buffer TileStart { uint tile_start[]; };
 layout(std430, binding = 1) readonly buffer Words { uint words[]; };
 layout(std430, binding = 2) readonly buffer Vector { vec4 x[]; };
@@ -18,8 +19,9 @@ const uint group_words = uint(WEIGHT_BITS) / 8u;
 void main() {
   uint local_tile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   if (local_tile >= tiles) return;
-  uvec2 group = uvec2(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2);
-  vec3 sum[4] = vec3[4](vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f));
+  uint line = gl_LocalInvocationIndex;
+  vec3 sum[16];
+  for (int i = 0; i < 16; ++i) sum[i] = vec3(0.0f);
   uint skipped_blocks = 0u, skipped_weights = 0u;
   uint end = tile_start[local_tile + 1u];
   for (uint at = tile_start[local_tile]; at < end;) {
@@ -30,24 +32,25 @@ void main() {
     if (is_culled(light, uintBitsToFloat(words[at + 2u]))) {
       skipped_blocks += 1u;
       skipped_weights += 4u * size.x * size.y;
-    } else {
-      uvec2 inside = group - corner;  // wraps to a large number outside of the rectangle
-      if (inside.x < size.x && inside.y < size.y) {
-        vec4 w = STORED_WEIGHTS(words, at + 3u + (inside.y * size.x + inside.x) * group_words);
-        light *= uintBitsToFloat(words[at + 1u]);
-        for (int i = 0; i < 4; ++i) sum[i] += w[i] * light;
+    } else if (line - corner.y < size.y) {  // wraps to a large number above the rectangle
+      light *= uintBitsToFloat(words[at + 1u]);
+      uint first = at + 3u + (line - corner.y) * size.x * group_words;
+      for (uint g = 0u; g < 4u; ++g) {  // unrolled: sum[] must stay in registers
+        if (g - corner.x >= size.x) continue;
+        vec4 w = STORED_WEIGHTS(words, first + (g - corner.x) * group_words);
+        for (uint i = 0u; i < 4u; ++i) sum[4u * g + i] += w[i] * light;
       }
     }
     at += 3u + size.x * size.y * group_words;
   }
   uint tile = first_tile + local_tile;
-  uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * uvec2(16u, 8u) + group * uvec2(4u, 1u);
-  for (uint i = 0u; i < 4u; ++i) {
+  uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * uvec2(16u, 8u) + uvec2(0u, line);
+  for (uint i = 0u; i < 16u; ++i) {
     if (pixel.x + i >= picture_size.x || pixel.y >= picture_size.y) continue;
     uint row = pixel.y * picture_size.x + pixel.x + i;
     y[row] = vec4(sum[i] * row_scale[row].rgb, 0.0f);
   }
-  if (gl_LocalInvocationIndex == 0u && skipped_blocks > 0u) {
+  if (line == 0u && skipped_blocks > 0u) {
     atomicAdd(culled_blocks, skipped_blocks);
     atomicAdd(culled_weights, skipped_weights);
   }

@@ -61,7 +61,7 @@ void TileProductGpu::multiply(const gpu::Buffer& x, const gpu::Buffer& y) const 
     slab.words.bind_storage(1);
     program_.set("first_tile", slab.first_tile);
     program_.set("tiles", slab.tiles);
-    program_.dispatch_items(int64_t{slab.tiles} * 32, 32);
+    program_.dispatch_items(int64_t{slab.tiles} * tile_height, tile_height);
   }
 }
 

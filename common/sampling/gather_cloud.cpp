@@ -120,8 +120,9 @@ class Sampler {
 };
 
 // Eight million particles give a layer of a cell of average importance some thirty hits at 65,536 samples, if
-// the surface crosses all 32 layers, and a place of a twentieth of the average still one or two.
-constexpr int64_t particles = 1 << 23;
+// the surface crosses all 32 layers, and a place of a twentieth of the average still one or two. With more
+// bounces each particle hits as many times more.
+constexpr int64_t particle_hits = 1 << 23;
 // A cell is large enough for this many samples of a uniform cloud: small enough to follow visibility, large
 // enough to count.
 constexpr double samples_a_cell = 8.0;
@@ -152,7 +153,8 @@ GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const DeepFrameB
   if (!(surface > 0.0)) fail("gather cloud: scene '{}' has no surface with an area", scene.name);
   const double cell_area = samples_a_cell * surface / static_cast<double>(budget);
   std::vector<SurfacePiece> pieces = cut_surfaces(scene, 0.25 * cell_area);
-  const ImportanceMap map(tracer, buffer, bounces, particles, static_cast<float>(std::sqrt(cell_area)), seed);
+  const ImportanceMap map(tracer, buffer, bounces, particle_hits / bounces,
+                          static_cast<float>(std::sqrt(cell_area)), seed);
   apply_importance(pieces, map, least_importance, sampling == CloudSampling::uniform);
   return make_gather_cloud(tracer, pieces, budget, seed);
 }

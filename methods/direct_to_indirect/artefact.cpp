@@ -10,7 +10,7 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 8;
+constexpr int precompute_version = 10;
 
 template <typename T>
 void append(std::vector<std::byte>& out, const std::vector<T>& values) {
@@ -53,10 +53,10 @@ std::string cache_key(const PrepareContext& context) {
   const View& view = context.buffer.view;
   const Camera& camera = view.camera;
   return fmt::format(
-      "version={};layout={},{};scene={:016x};view={}x{};eye={};target={};up={};fov={};seed={};{}",
-      precompute_version, sizeof(SurfaceSample), sizeof(SparseEntry), context.scene.content_hash, view.width,
-      view.height, words(camera.eye), words(camera.target), words(camera.up), camera.fov_y_degrees,
-      context.seed, context.knobs.precompute_key());
+      "version={};layout={},{},{};scene={:016x};view={}x{};eye={};target={};up={};fov={};seed={};{}",
+      precompute_version, sizeof(SurfaceSample), sizeof(SparseEntry), sizeof(SparseEntryRgb),
+      context.scene.content_hash, view.width, view.height, words(camera.eye), words(camera.target),
+      words(camera.up), camera.fov_y_degrees, context.seed, context.knobs.precompute_key());
 }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
@@ -66,6 +66,13 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
   append(out, artefact.cloud.area);
   append(out, artefact.final_gather.row_start);
   append(out, artefact.final_gather.entries);
+  const MultiBounce& m = artefact.multi_bounce;
+  append(out, std::vector<int32_t>{m.bounces});
+  append(out, std::vector<double>{m.share_beyond});
+  append(out, m.photons.row_start);
+  append(out, m.photons.entries);
+  append(out, m.transfer.row_start);
+  append(out, m.transfer.entries);
   return out;
 }
 
@@ -77,9 +84,19 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   artefact.cloud.area = reader.next<float>();
   artefact.final_gather.row_start = reader.next<uint64_t>();
   artefact.final_gather.entries = reader.next<SparseEntry>();
-  if (columns.size() != 1 || columns[0] != artefact.cloud.samples.size())
+  const std::vector<int32_t> bounces = reader.next<int32_t>();
+  const std::vector<double> share_beyond = reader.next<double>();
+  MultiBounce& m = artefact.multi_bounce;
+  m.photons.row_start = reader.next<uint64_t>();
+  m.photons.entries = reader.next<SparseEntryRgb>();
+  m.transfer.row_start = reader.next<uint64_t>();
+  m.transfer.entries = reader.next<SparseEntry>();
+  if (columns.size() != 1 || columns[0] != artefact.cloud.samples.size() || bounces.size() != 1 ||
+      share_beyond.size() != 1)
     fail("cached artefact: inconsistent sizes");
-  artefact.final_gather.columns = columns[0];
+  artefact.final_gather.columns = m.photons.columns = m.transfer.columns = columns[0];
+  m.bounces = bounces[0];
+  m.share_beyond = share_beyond[0];
   return artefact;
 }
 

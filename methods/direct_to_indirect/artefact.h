@@ -8,12 +8,14 @@
 #include "common/linalg/sparse_rows.h"
 #include "common/run/method.h"
 #include "common/sampling/gather_cloud.h"
+#include "methods/direct_to_indirect/multi_bounce.h"
 
 namespace relight::direct_to_indirect {
 
 struct Artefact {
   GatherCloud cloud;        // in tree order; diffuse albedos include the column scaling
   SparseRows final_gather;  // wavelet space, one row a view sample
+  MultiBounce multi_bounce;
 };
 
 // Everything the artefact depends on, in words. Contains the version of this folder's precompute code: raise

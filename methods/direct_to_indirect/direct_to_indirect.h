@@ -1,5 +1,6 @@
 // Direct-to-indirect wavelet transfer on the GPU (Hasan, Pellacini, Bala, SIGGRAPH 2006), first version:
-// diffuse, one bounce. README.md in this folder maps paper sections to files and says what is not here yet.
+// diffuse, one bounce or several. README.md in this folder maps paper sections to files and says what is not
+// here yet.
 #pragma once
 
 #include <memory>

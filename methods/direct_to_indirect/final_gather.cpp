@@ -107,6 +107,8 @@ class Builder {
           static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(),
                                             [this](const Candidate& c) { return c.weight > threshold_; }));
     row.target = std::min(row.target, settings_.row_limit());
+    if (settings_.energy_fraction < 1.0)
+      row.target = std::min(row.target, count_for_energy(candidates, settings_.energy_fraction));
     const float surplus = worker.refit ? settings_.refit_candidates : 1.0f;
     keep_largest(candidates, static_cast<size_t>(surplus * static_cast<float>(row.target)));
     for (const Candidate& c : candidates) row.entries.push_back(c.entry);

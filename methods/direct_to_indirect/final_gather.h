@@ -33,6 +33,7 @@ struct FinalGatherSettings {
   float form_factor_clamp = 0.1f;  // largest element of a link
   bool disc_elements = false;      // links are bounded as discs, cos cos A / (pi r^2 + A), and not clamped
   int coefficients = 100;          // kept a row, or on average a row with shared_budget
+  double energy_fraction = 1.0;    // a row keeps no more than it needs for this share of its energy
   bool shared_budget = false;      // all rows share coefficients x rows, the heaviest of all are kept
   float support_exponent =
       1.0f;                  // coefficients are ranked by |c| x support^this: 1 by area (paper), 0 by size

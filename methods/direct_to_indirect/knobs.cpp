@@ -27,10 +27,22 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
+       "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
        "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
       {"support_exponent", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps the coefficients with the largest |c| x support^this: 1 weights by area (paper), 0 by size alone."},
+      {"bounces", integer, precompute, "1", 1, 64, {}, "multi_bounce",
+       "Bounces of indirect light in all; 1: the final gather alone, nothing of the multiple-bounce matrix is computed (paper: 4, by photon paths of length 3)."},
+      {"multi_bounce", choice, precompute, "photons", 0, 0, {"photons", "transfer"}, "multi_bounce",
+       "Multiple-bounce matrix by density estimation on photons (paper), or by links between gather samples, applied once a bounce."},
+      {"bounce_coefficients", integer, precompute, "40", 1, 65536, {}, "multi_bounce",
+       "Wavelet coefficients kept a row of the multiple-bounce matrix (paper: 40)."},
+      {"photons", integer, precompute, "1000000", 1, 1000000000, {}, "multi_bounce",
+       "Photon paths shot from the gather samples, spread evenly over them (paper: one million, about 15 a sample)."},
+      {"photon_neighbours", integer, precompute, "2000", 2, 1000000, {}, "multi_bounce",
+       "Nearest photons of the density estimate at a gather sample (paper: 2,000; GPU Gems: about 1,000)."},
       {"refit_lights", integer, precompute, "0", 0, 4096, {}, "refit",
        "Kept coefficients are refitted to this many random lights in front of the view; 0 leaves them as they are (paper)."},
       {"refit_candidates", real, precompute, "1", 1, 8, {}, "refit",
@@ -60,8 +72,11 @@ KnobTable knob_table() {
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
            "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h): twice the precompute time, the same relight time.",
-           {{"support_exponent", "0.8"}, {"refit_lights", "2048"}, {"refit_candidates", "1.5"}}}};
+           "(light_refit.h); rays instead of the clamp between close points (near_field.h).",
+           {{"support_exponent", "0.8"},
+            {"refit_lights", "2048"},
+            {"refit_candidates", "1.5"},
+            {"near_field", "hemisphere"}}}};
 }
 
 }  // namespace relight::direct_to_indirect

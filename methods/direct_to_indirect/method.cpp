@@ -15,14 +15,18 @@ class DirectToIndirect : public Method {
   std::string name() const override { return "direct_to_indirect"; }
   std::string summary() const override {
     return "Direct light on a gather cloud, carried to the view by a sparse matrix in wavelet space "
-           "(diffuse, one bounce).";
+           "(diffuse, one bounce or several).";
   }
   std::string paper() const override {
     return "Hasan, Pellacini, Bala: Direct-to-Indirect Transfer for Cinematic Relighting, SIGGRAPH 2006";
   }
   KnobTable knobs() const override { return knob_table(); }
   std::vector<KnobPreset> presets() const override { return knob_presets(); }
-  LightPaths light_paths(const KnobValues&) const override { return {}; }
+  LightPaths light_paths(const KnobValues& knobs) const override {
+    LightPaths paths;
+    paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
+    return paths;
+  }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);
     StageTimer timer(context.log, "upload");

@@ -6,6 +6,7 @@
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/near_field.h"
 #include "methods/direct_to_indirect/training_lights.h"
 
@@ -22,11 +23,26 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.disc_elements = knobs.choice("near_field") == "disc";
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
+  settings.energy_fraction = knobs.real("energy_fraction");
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
   settings.refit_ridge = static_cast<float>(knobs.real("refit_ridge"));
   settings.refit_candidates = static_cast<float>(knobs.real("refit_candidates"));
   settings.seed = context.seed;
+  return settings;
+}
+
+int bounces(const KnobValues& knobs) { return static_cast<int>(knobs.integer("bounces")); }
+
+MultiBounceSettings multi_bounce_settings(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  MultiBounceSettings settings;
+  settings.kind = knobs.choice("multi_bounce") == "photons" ? BounceKind::photons : BounceKind::transfer;
+  settings.bounces = bounces(knobs);
+  settings.photons = knobs.integer("photons");
+  settings.neighbours = static_cast<int>(knobs.integer("photon_neighbours"));
+  settings.coefficients = static_cast<int>(knobs.integer("bounce_coefficients"));
+  settings.gather = final_gather_settings(context);
   return settings;
 }
 
@@ -45,7 +61,7 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
                                    static_cast<int>(knobs.integer("near_rays")), context.seed};
   std::vector<SurfaceSample> points;
   if (kind == "cell_average")
-    points = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), 1,
+    points = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
                                         points_a_cell * static_cast<int64_t>(cloud.samples.size()),
                                         context.seed + 1)
                  .samples;
@@ -57,8 +73,9 @@ Artefact precompute(const PrepareContext& context) {
   Artefact artefact;
   {
     StageTimer timer(context.log, "gather_cloud");
-    artefact.cloud = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), 1,
-                                                knobs.integer("gather_samples"), context.seed);
+    artefact.cloud =
+        make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
+                                   knobs.integer("gather_samples"), context.seed);
   }
   GatherHierarchy hierarchy;
   {
@@ -72,6 +89,12 @@ Artefact precompute(const PrepareContext& context) {
   if (knobs.choice("column_scaling") == "mean_row") {
     StageTimer timer(context.log, "column_scaling");
     scale = mean_row_scaling(context.tracer, context.buffer, artefact.cloud, hierarchy, settings);
+  }
+  const MultiBounceSettings bounce_settings = multi_bounce_settings(context);
+  if (bounce_settings.bounces > 1) {
+    StageTimer timer(context.log, "multi_bounce");
+    artefact.multi_bounce = compute_multi_bounce({context.tracer, artefact.cloud, hierarchy, scale},
+                                                 bounce_settings, context.progress, context.log);
   }
   TrainingLights training;
   const auto lights = static_cast<uint32_t>(knobs.integer("refit_lights"));

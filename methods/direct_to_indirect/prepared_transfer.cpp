@@ -1,5 +1,7 @@
 #include "methods/direct_to_indirect/prepared_transfer.h"
 
+#include <optional>
+
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
 #include "common/linalg/product_list.h"
@@ -7,6 +9,7 @@
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
+#include "methods/direct_to_indirect/multi_bounce_light.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
 
 namespace relight::direct_to_indirect {
@@ -56,6 +59,14 @@ class PreparedTransfer : public Prepared {
         reconstruction_(context.buffer),
         direct_(samples_.make()),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
+    if (artefact.multi_bounce.bounces > 1) {
+      report_share_beyond(artefact.multi_bounce, context.log);
+      bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud,
+                       context.gpu.max_storage_block_bytes());
+      context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
+      context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
+      context.log.bytes("multi_bounce_light", bounces_->result_bytes());
+    }
     make_product(context);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes());
@@ -90,9 +101,15 @@ class PreparedTransfer : public Prepared {
   }
 
   void transfer_on_gpu(const gpu::Buffer& gather_direct, StageLog& log) {
+    const gpu::Buffer* light = &gather_direct;
+    if (bounces_) {
+      StageTimer timer(log, "multi_bounce");
+      light = &bounces_->with_bounces(gather_direct, haar_);
+      gpu::finish();
+    }
     {
       StageTimer timer(log, "wavelet_transform");
-      haar_.forward(gather_direct);
+      haar_.forward(*light);
       gpu::finish();
     }
     {
@@ -111,6 +128,13 @@ class PreparedTransfer : public Prepared {
     {
       StageTimer timer(log, "wavelet_transform");
       for (const glm::vec4& v : gather_direct.download<glm::vec4>()) g.emplace_back(v);
+    }
+    if (bounces_) {
+      StageTimer timer(log, "multi_bounce");
+      g = bounces_->with_bounces(g);
+    }
+    {
+      StageTimer timer(log, "wavelet_transform");
       g = wavelet::forward(g);
     }
     StageTimer timer(log, "transfer");
@@ -126,6 +150,7 @@ class PreparedTransfer : public Prepared {
   LitSamples samples_;
   wavelet::HaarGpu haar_;
   Reconstruction reconstruction_;
+  std::optional<MultiBounceLight> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;
   gpu::Buffer indirect_;
   std::unique_ptr<TransferProductGpu> product_;  // none for the oracle

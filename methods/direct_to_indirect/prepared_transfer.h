@@ -1,5 +1,5 @@
-// Relight of direct-to-indirect transfer, equation 7 with M = 0:
-//   v_i = k_d * (F_d^w (W g_d)),  image = direct + upsampled v_i.
+// Relight of direct-to-indirect transfer, equation 7:
+//   v_i = k_d * (F_d^w W (M^w W + I) g_d),  M = 0 with one bounce;  image = direct + upsampled v_i.
 #pragma once
 
 #include <memory>

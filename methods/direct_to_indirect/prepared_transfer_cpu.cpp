@@ -1,11 +1,14 @@
 #include "methods/direct_to_indirect/prepared_transfer_cpu.h"
 
+#include <optional>
+
 #include "common/linalg/product_list.h"
 #include "common/run/error.h"
 #include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
 #include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
 
 namespace relight::direct_to_indirect {
@@ -50,6 +53,12 @@ class PreparedTransferCpu : public Prepared {
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),
         indirect_(context.buffer.indirect.size()) {
+    if (artefact.multi_bounce.bounces > 1) {
+      report_share_beyond(artefact.multi_bounce, context.log);
+      bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud);
+      context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
+      context.log.bytes("multi_bounce_light", bounces_->result_bytes());
+    }
     context.log.bytes("final_gather_matrix", artefact.final_gather.bytes());
     log_product(product_->statistics(), context.log);
     context.log.bytes("gather_samples", samples_.gather.bytes());
@@ -61,9 +70,14 @@ class PreparedTransferCpu : public Prepared {
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
     const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    std::span<const glm::vec4> light = std::span(direct.gather).first(coefficients_.size());
+    if (bounces_) {
+      const StageTimer timer(log, "multi_bounce");
+      light = bounces_->with_bounces(light);
+    }
     {
       const StageTimer timer(log, "wavelet_transform");
-      haar_.forward(std::span(direct.gather).first(coefficients_.size()), coefficients_);
+      haar_.forward(light, coefficients_);
     }
     {
       const StageTimer timer(log, "transfer");
@@ -87,6 +101,7 @@ class PreparedTransferCpu : public Prepared {
   wavelet::HaarCpu haar_;
   std::unique_ptr<TransferProduct> product_;
   FusedReconstruction reconstruction_;
+  std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;
   std::vector<glm::vec4> coefficients_, indirect_;
 };

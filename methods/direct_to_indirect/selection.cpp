@@ -13,6 +13,27 @@
 
 namespace relight::direct_to_indirect {
 
+namespace {
+
+bool heavier(const Candidate& a, const Candidate& b) {
+  return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
+}
+
+double energy(const Candidate& c) {
+  return static_cast<double>(c.entry.value) * static_cast<double>(c.entry.value);
+}
+
+}  // namespace
+
+size_t count_for_energy(std::vector<Candidate>& candidates, double fraction) {
+  std::sort(candidates.begin(), candidates.end(), heavier);
+  double total = 0.0, held = 0.0;
+  for (const Candidate& c : candidates) total += energy(c);
+  size_t count = 0;
+  while (count < candidates.size() && held < fraction * total) held += energy(candidates[count++]);
+  return count;
+}
+
 void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, float support_exponent,
                         uint32_t columns, float row_factor, std::vector<Candidate>& out) {
   out.clear();
@@ -26,9 +47,6 @@ void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t
 }
 
 void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
-  const auto heavier = [](const Candidate& a, const Candidate& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
-  };
   if (candidates.size() > limit) {
     std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
                      candidates.end(), heavier);

@@ -20,6 +20,10 @@ void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t
 // Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.
 void keep_largest(std::vector<Candidate>& candidates, size_t limit);
 
+// How many of the candidates with the largest weight hold `fraction` of the energy of all, the sum of their
+// squared values. Reorders.
+size_t count_for_energy(std::vector<Candidate>& candidates, double fraction);
+
 // Brightness of a view sample's row in the picture: the luminance of its albedo k_d.
 float row_factor(const SurfaceSample& sample);
 

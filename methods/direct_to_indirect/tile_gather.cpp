@@ -158,7 +158,10 @@ bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const 
     const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
     closest2 = std::min(closest2, wx * wx + wy * wy + wz * wz);
   }
-  return glm::dot(diagonal, diagonal) > settings_.link_threshold * closest2;
+  // Without a threshold a cluster is never linked as a whole, not even one whose members coincide: their
+  // areas may differ.
+  return settings_.link_threshold <= 0.0f ||
+         glm::dot(diagonal, diagonal) > settings_.link_threshold * closest2;
 }
 
 // Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`

@@ -3,49 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "common/run/thread_limit.h"
 #include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/column_scaling.h"
+#include "tests/direct_to_indirect/gather_oracle.h"
 #include "tests/direct_to_indirect/gather_setup.h"
 #include "tests/support/tiny_scenes.h"
 
 namespace relight::direct_to_indirect {
 namespace {
-
-// F_ij of final_gather.h, pair by pair, in double, without tree, tile or packet.
-std::vector<double> oracle_row(const GatherSetup& s, const SurfaceSample& v, double clamp) {
-  std::vector<double> row(s.cloud.samples.size(), 0.0);
-  for (size_t j = 0; j < row.size(); ++j) {
-    const SurfaceSample& g = s.cloud.samples[j];
-    const glm::dvec3 w = glm::dvec3(g.position) - glm::dvec3(v.position);
-    const double r2 = glm::dot(w, w);
-    const double cv = glm::dot(glm::dvec3(v.shading_normal), w),
-                 cg = -glm::dot(glm::dvec3(g.geometric_normal), w);
-    if (!(r2 > 0.0) || cv <= 0.0 || cg <= 0.0 || glm::dot(glm::dvec3(v.geometric_normal), w) <= 0.0) continue;
-    if (!s.tracer.visible(v.position, v.geometric_normal, g.position, g.geometric_normal)) continue;
-    row[j] = std::min(clamp, cv * cg * static_cast<double>(s.cloud.area[j]) / (std::numbers::pi * r2 * r2));
-  }
-  return row;
-}
-
-// Largest difference over all rows, relative to the largest element of the oracle's row.
-double worst_difference(GatherSetup& s, const FinalGatherSettings& settings, double clamp) {
-  const SparseRows rows = s.final_gather(settings);
-  double worst = 0.0;
-  for (size_t i = 0; i < s.buffer.indirect.size(); i += 5) {
-    if (!s.buffer.indirect[i].valid) continue;
-    const std::vector<double> expected = oracle_row(s, s.buffer.indirect[i], clamp);
-    const std::vector<double> got = wavelet::inverse(dense_row(rows, i));
-    double scale = 0.0;
-    for (const double e : expected) scale = std::max(scale, e);
-    for (size_t j = 0; j < got.size(); ++j) worst = std::max(worst, std::abs(got[j] - expected[j]) / scale);
-  }
-  return worst;
-}
 
 // All links to single samples, nothing truncated: the tree-transformed row is the Haar transform of the dense
 // row. Red if a cull drops a visible sample, a detail has the wrong sign or index, or a lane takes its
@@ -85,6 +54,30 @@ TEST(FinalGather, KeepsTheCoefficientsWithTheLargestAreaWeightedSize) {
     }
     EXPECT_EQ(count, std::min(available, 20));  // walls seen from outside have none
     EXPECT_GE(smallest_kept, largest_left);
+  }
+}
+
+// The fewest of the heaviest that hold 90 % of the sum of squares. Red if the fraction is taken of the sum of
+// sizes or the last one needed is left out (both tried).
+TEST(FinalGather, KeepsTheEnergyFractionThatIsAskedFor) {
+  GatherSetup s(tiny::room(), 8, 8, 1024, true);
+  FinalGatherSettings settings = exact_settings(1024);
+  const SparseRows all = s.final_gather(settings);
+  settings.energy_fraction = 0.9;
+  const SparseRows few = s.final_gather(settings);
+  for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {
+    double total = 0.0, held = 0.0, lightest = INFINITY, its_energy = 0.0;
+    for (const double c : dense_row(all, i)) total += c * c;
+    const std::vector<double> kept = dense_row(few, i);
+    for (uint32_t c = 0; c < 1024; ++c) {
+      held += kept[c] * kept[c];
+      const double weight = std::abs(kept[c]) * wavelet::support(c, 1024);
+      if (kept[c] != 0.0 && weight < lightest) lightest = weight, its_energy = kept[c] * kept[c];
+    }
+    EXPECT_GE(held, 0.9 * total * (1.0 - 1e-9));
+    if (total > 0.0) {
+      EXPECT_LT(held - its_energy, 0.9 * total);
+    }
   }
 }
 

@@ -26,8 +26,7 @@ std::vector<AtlasSize> random_sizes(size_t count, int largest) {
   return sizes;
 }
 
-// Tried: the rest below a block as wide as the block only and the rest to the right as high as the free
-// rectangle, both at once (they overlap then); the height of an atlas without its last block.
+// Tried: the rest to the right as high as the free rectangle, so that it overlaps the rest below, is red.
 TEST(AtlasPacking, BlocksDoNotOverlapAndLieInsideTheirAtlases) {
   const int size = 128;
   const std::vector<AtlasSize> sizes = random_sizes(3000, 90);
@@ -61,9 +60,7 @@ TEST(AtlasPacking, RefusesABlockThatFitsNoAtlasAndPacksNothingIntoNone) {
   EXPECT_EQ(pack_into_atlases({}, 8).fill, 0.0);
 }
 
-// Tried: the halves of a split told apart by < instead of <= (the recursion never ends); block_waste compared
-// with the share of non-zeros; area_after_ starting one coordinate late (blocks stay tight, but the best
-// split is missed: the last test below is red).
+// Tried: block_waste compared with the share of non-zeros is red.
 TEST(ImageBlocks, CoverEveryNonZeroExactlyOnceWithAtMostTheAllowedWaste) {
   const PictureShape shape{61, 37};
   for (const SparseRows& m :
@@ -91,7 +88,8 @@ TEST(ImageBlocks, CoverEveryNonZeroExactlyOnceWithAtMostTheAllowedWaste) {
   }
 }
 
-// Two rectangles apart from each other, of known areas: the only split without waste.
+// Two rectangles apart from each other, of known areas: the only split without waste. Tried: the area after a
+// cut counted from the cut's own line on is red.
 TEST(ImageBlocks, FindsTheSplitWithTheLeastArea) {
   SparseRows t;
   t.columns = 20 * 10;
@@ -126,8 +124,8 @@ float restored(float weight, const BlockQuantisation& q, WeightFormat format) {
   return q.step * (static_cast<float>(quantised(weight, q, format)) + q.origin);
 }
 
-// Tried: an origin that is not an integer where there are zeros (the paper's plain minimum): zeros come back
-// as up to half a step; no step given up for it: the largest weight is clamped.
+// Tried: an origin that is not an integer where there are zeros (the paper's plain minimum) is red: zeros
+// come back as up to half a step.
 TEST(BlockQuantisation, KeepsWeightsToHalfAStepAndZerosExactly) {
   const std::vector<std::vector<float>> blocks = {{0.0f, 0.7f, -0.31f, 0.123f},
                                                   {0.5f, 0.5f, 0.5f},
@@ -144,7 +142,9 @@ TEST(BlockQuantisation, KeepsWeightsToHalfAStepAndZerosExactly) {
         const float got = restored(w, q, format);
         EXPECT_NEAR(got, w, q.bound() * 1.0001f + 1e-6f * std::abs(w))
             << "block " << b << ", " << to_string(format);
-        if (w == 0.0f) EXPECT_EQ(got, 0.0f) << "block " << b << ", " << to_string(format);
+        if (w == 0.0f) {
+          EXPECT_EQ(got, 0.0f) << "block " << b << ", " << to_string(format);
+        }
       }
     }
     // The step is what 256 or 65,536 levels can do.
