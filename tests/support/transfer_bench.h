@@ -30,10 +30,11 @@ class TransferBench {
   TransferBench(const TransferBench&) = delete;
   TransferBench& operator=(const TransferBench&) = delete;
 
-  // 1024 gather samples unless the knobs say otherwise.
+  // 1024 gather samples and a coarse cut of their hierarchy, which is fast, unless the knobs say otherwise.
   std::unique_ptr<Prepared> prepare(const Knobs& knobs) {
     KnobValues values(method->knobs());
     values.set("gather_samples", "1024");
+    values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
     StageLog log;
     return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log});
