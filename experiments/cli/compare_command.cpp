@@ -39,17 +39,7 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_option("--methods", options->methods, "Methods, separated by commas (see `relight methods`)")
       ->required()
       ->type_name("NAME,NAME");
-  command
-      ->add_option("--preset", options->preset,
-                   "Knob values to start from: paper (the defaults), or a preset of a method (see `relight "
-                   "methods NAME`)")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command
-      ->add_option("--set", options->settings,
-                   "Value of a knob (see `relight methods NAME`); may be repeated")
-      ->type_name("METHOD.KNOB=VALUE")
-      ->allow_extra_args(false);
+  add_knob_flags(*command, options->preset, options->settings);
   command->add_option("--out", options->out, "Folder for images, records and the page")
       ->required()
       ->type_name("DIR");

@@ -36,4 +36,16 @@ void add_cache_folder_flag(CLI::App& command, SessionOptions& options) {
       ->type_name("DIR");
 }
 
+void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::string>& settings) {
+  command
+      .add_option("--preset", preset,
+                  "Knob values to start from: paper (the defaults), or a preset of a method (see `relight "
+                  "methods NAME`)")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command.add_option("--set", settings, "Value of a knob (see `relight methods NAME`); may be repeated")
+      ->type_name("METHOD.KNOB=VALUE")
+      ->allow_extra_args(false);
+}
+
 }  // namespace relight::cli

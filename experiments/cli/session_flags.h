@@ -1,6 +1,9 @@
 // The options that render, reference and compare share.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "experiments/session/options.h"
 
 namespace CLI {
@@ -10,6 +13,8 @@ class App;
 namespace relight::cli {
 
 void add_session_flags(CLI::App& command, SessionOptions& options);
+// --preset and --set.
+void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::string>& settings);
 // --cache and --no-cache alone.
 void add_cache_folder_flag(CLI::App& command, SessionOptions& options);
 
