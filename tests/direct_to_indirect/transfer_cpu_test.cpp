@@ -20,8 +20,7 @@ const Light beam = tiny::spot({-0.4f, 0.9f, 0.5f}, {0.2f, -1.0f, -0.1f}, 15.0f, 
 // With float weights both sides make the same sums, one in float, one in double, of some 100 products and 5
 // Haar levels: 100 roundings of 2^-24. With 8 bits (the default) a weight is off by up to 2^-8 of the largest
 // of its row or tile; such errors average out over a row, the bound is 1 %. Direct: same rays, same formulas.
-// Red if blocks, albedos, rows or coefficients are mixed up (tried: the row scale left out; view blocks in
-// the order of the gather samples).
+// Red if blocks, albedos, rows or coefficients are mixed up.
 TEST(TransferCpu, AgreesWithItsDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {
     TransferBench bench(tiny::room(2.0f, glm::vec3(0.0f), glossy));
