@@ -10,7 +10,6 @@
 // Everything that is not near stays with the links.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -60,7 +59,7 @@ class NearField {
   std::unique_ptr<Cells> cells_;
 };
 
-// Distance at which A cos / (pi r^2) counts as near, for a cell of area A and `threshold` of the hemisphere.
+// Distance r at which A / (pi r^2) = threshold, for a cell of area A.
 float near_distance(float area, float threshold);
 
 }  // namespace relight::direct_to_indirect
