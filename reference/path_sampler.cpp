@@ -39,7 +39,7 @@ Reflected PathSampler::from_light(const EyeVertex& y, size_t light, float distan
                                   float connections, int64_t& rays) const {
   const SurfaceSample& s = *y.surface;
   const glm::vec3 irradiance =
-      shader::light_irradiance(lights_.params(light), s.position, s.shading_normal, s.geometric_normal);
+      lights_.emitter(light).irradiance(s.position, s.shading_normal, s.geometric_normal);
   if (black(irradiance)) return {};
   const glm::vec3 end = lights_.shadow_ray_end(light, s.position);
   const Segment to_light(s.position, end);

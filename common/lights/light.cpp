@@ -46,11 +46,7 @@ void validate_rectangle(const Light& light, const std::string& who) {
 }  // namespace
 
 shader::LightParams Light::params() const {
-  if (!is_delta(type))
-    fail(
-        "light '{}': a light with an area (rectangle, disc) has no form for shaders; only path tracing knows "
-        "it",
-        name);
+  if (has_area(type)) fail("light '{}': a light with an area (rectangle, disc) is not one point", name);
   // In double: near 0 degrees the cosine of a float angle keeps only half of its digits.
   const auto cosine = [](float degrees) {
     return static_cast<float>(std::cos(glm::radians(double(degrees))));
@@ -75,6 +71,8 @@ void validate(const LightingState& lighting) {
     if (light.type == LightType::spot) validate_spot(light, who);
     if (light.type > LightType::spot && (!finite(light.direction) || !(glm::length(light.direction) > 0.0f)))
       fail("{}: direction is {}; it must be finite and have a length", who, show(light.direction));
+    if (has_area(light.type) && !light.casts_shadows)
+      fail("{}: casts_shadows is false; valid for a light with an area: true", who);
     if (light.type == LightType::rectangle) validate_rectangle(light, who);
     if (light.type == LightType::disc && !(light.radius > 0.0f && std::isfinite(light.radius)))
       fail("{}: radius is {}; a disc needs a finite radius > 0", who, light.radius);

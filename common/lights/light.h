@@ -19,8 +19,8 @@ using namespace glm;
 // rectangle and disc are seen by surfaces but not by the camera, shine from one side only and block nothing.
 enum class LightType { omni = 0, spot = 1, directional = 2, rectangle = 3, disc = 4 };
 
-// True for lights that shine from one place or one direction: their shadows are sharp.
-inline bool is_delta(LightType type) { return type <= LightType::directional; }
+// False for lights that shine from one place or one direction: their shadows are sharp.
+inline bool has_area(LightType type) { return type == LightType::rectangle || type == LightType::disc; }
 
 // Linear RGB. The unit of intensity depends on the type: W/sr (omni, spot), W/m^2 facing the light
 // (directional), or radiance in W/(m^2 sr) (rectangle, disc).
@@ -37,8 +37,8 @@ struct Light {
   float outer_degrees = 25.0f;           // spot: half-angle where the intensity reaches zero; > inner
   bool casts_shadows = true;
 
-  // The form the shading code (C++ and GLSL) reads. Throws Error for lights with an area: a shader would take
-  // a rectangle's radiance for the irradiance of parallel light.
+  // The form the shading code (C++ and GLSL) reads. Throws Error for lights with an area, which are made of
+  // many points: see emitter.h.
   shader::LightParams params() const;
 };
 

@@ -54,10 +54,10 @@ struct DirectLighting::Impl {
   }
 
   const gpu::Program& program_for(const Request& request);
-  void shade_light(const Light& light, bool first, const std::vector<Request>& requests, StageLog& log);
-  void set_light(const gpu::Program& program, const Light& light, bool first) const;
+  void shade_emitter(const Emitter& light, bool first, const std::vector<Request>& requests, StageLog& log);
+  void set_light(const gpu::Program& program, const Emitter& light, bool first) const;
   void shade_set(const gpu::Program& program, const Request& request, const gpu::Buffer* visibility) const;
-  std::vector<gpu::Buffer> trace(const Light& light, const std::vector<Request>& requests,
+  std::vector<gpu::Buffer> trace(const Emitter& light, const std::vector<Request>& requests,
                                  StageLog& log) const;
   void check_report(StageLog& log) const;
 };
@@ -90,9 +90,11 @@ void DirectLighting::shade(std::span<const Light> lights, const std::vector<Requ
   bool first = onto == Onto::nothing;
   for (const Light& light : lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
-    require_omni_or_spot(light);
-    impl_->shade_light(light, first, requests, log);
-    first = false;
+    for (const Emitter& emitter :
+         emitters_of(light, impl_->settings.area_light_samples, impl_->tracer.offset())) {
+      impl_->shade_emitter(emitter, first, requests, log);
+      first = false;
+    }
   }
   if (first) {
     for (const Request& r : requests) r.out->clear();
@@ -101,8 +103,8 @@ void DirectLighting::shade(std::span<const Light> lights, const std::vector<Requ
   gpu::check_gl("direct lighting");
 }
 
-void DirectLighting::Impl::shade_light(const Light& light, bool first, const std::vector<Request>& requests,
-                                       StageLog& log) {
+void DirectLighting::Impl::shade_emitter(const Emitter& light, bool first,
+                                         const std::vector<Request>& requests, StageLog& log) {
   std::vector<gpu::Buffer> visibility;
   LightFrame frame;
   if (light.casts_shadows && maps) {
@@ -132,7 +134,8 @@ const gpu::Program& DirectLighting::Impl::program_for(const Request& request) {
   return programs.emplace(variant, compile(variant, settings.shadows)).first->second;
 }
 
-std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const std::vector<Request>& requests,
+std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Emitter& light,
+                                                     const std::vector<Request>& requests,
                                                      StageLog& log) const {
   std::vector<gpu::Buffer> visibility;
   int64_t rays = 0;
@@ -143,11 +146,10 @@ std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const s
   return visibility;
 }
 
-void DirectLighting::Impl::set_light(const gpu::Program& program, const Light& light, bool first) const {
-  const shader::LightParams params = light.params();
-  program.set("light_position_type", params.position_type);
-  program.set("light_direction_outer", params.direction_outer);
-  program.set("light_intensity_inner", params.intensity_inner);
+void DirectLighting::Impl::set_light(const gpu::Program& program, const Emitter& light, bool first) const {
+  program.set("light_position_type", light.params.position_type);
+  program.set("light_direction_outer", light.params.direction_outer);
+  program.set("light_intensity_inner", light.params.intensity_inner);
   program.set("first_light", first ? 1 : 0);
   program.set("shadowed", light.casts_shadows ? 1 : 0);
 }

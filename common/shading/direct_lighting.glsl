@@ -53,7 +53,7 @@ uniform vec4 light_position_type, light_direction_outer, light_intensity_inner;
 float visible(uint i, vec3 position, vec3 ng) {
   if (shadowed == 0) return 1.0;
 #if SHADOW_MAPS
-  return shadow_map_visibility(position - light_position_type.xyz, ng);
+  return shadow_map_visibility(position - shadow_origin, ng);
 #else
   return float((visibility[i >> 5] >> (i & 31u)) & 1u);
 #endif
@@ -70,7 +70,7 @@ vec3 reflected(uint i) {
   BrdfParams brdf = BrdfParams(vec3(s.ngyz_diffuse_rg.zw, s.diffuse_b_glossy.x), s.position_exponent.w,
                                s.diffuse_b_glossy.yzw, shape_of(i));
 #if ALL_LOBES
-  vec3 f = brdf_eval(brdf, ns, normalize(eye - position), normalize(light_position_type.xyz - position));
+  vec3 f = brdf_eval(brdf, ns, normalize(eye - position), light_direction(light, position));
 #else
   vec3 f = brdf_diffuse(brdf);
 #endif

@@ -38,7 +38,7 @@ bool all_alike(const RayTracer& tracer, const SurfaceSample& s, const glm::vec3&
 }  // namespace
 
 float texel_at_unit_depth(const Light& light, int map_size) {
-  return 2.0f * light_frame(light, 1.0f, map_size).tan_half / static_cast<float>(map_size);
+  return 2.0f * light_frame(emitter_of(light), 1.0f, map_size).tan_half / static_cast<float>(map_size);
 }
 
 std::vector<uint8_t> away_from_shadow_edges(const RayTracer& tracer,
