@@ -26,6 +26,7 @@ struct Parts {
 struct Shader {
   const RayTracer& tracer;
   const LightSampler& lights;
+  const Environment& environment;
   const LightPaths& paths;
   const View& view;
   const AreaLights* area;
@@ -85,7 +86,7 @@ struct Shader {
     Parts parts;
     if (!sample.valid) {
       if (paths.environment)
-        parts.environment = tracer.scene().environment.lookup(view.camera.direction(
+        parts.environment = environment.lookup(view.camera.direction(
             static_cast<float>(sx) + 0.5f, static_cast<float>(sy) + 0.5f, 2 * view.width, 2 * view.height));
       return parts;
     }
@@ -125,9 +126,10 @@ std::vector<PathClass> DirectImage::area_classes() {
 }
 
 DirectImage trace_direct(const RayTracer& tracer, const DeepFrameBuffer& buffer, const LightSampler& lights,
-                         const LightPaths& paths, const AreaLights* area, int area_samples, uint64_t seed) {
+                         const Environment& environment, const LightPaths& paths, const AreaLights* area,
+                         int area_samples, uint64_t seed) {
   const View& view = buffer.view;
-  const Shader shader{tracer, lights, paths, view, area, area_samples, seed};
+  const Shader shader{tracer, lights, environment, paths, view, area, area_samples, seed};
   const Image empty(view.width, view.height);
   DirectImage result{empty, empty, empty, empty, {}, {}, {}};
   if (area) result.area_diffuse = result.area_glossy = result.area_variance = empty;

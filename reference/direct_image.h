@@ -30,7 +30,7 @@ struct DirectImage {
 // area: rectangles and discs to be added, by area_samples scrambled points (even, >= 2) a light and
 // sub-sample; null: none.
 DirectImage trace_direct(const RayTracer& tracer, const DeepFrameBuffer& buffer, const LightSampler& lights,
-                         const LightPaths& paths, const AreaLights* area = nullptr, int area_samples = 0,
-                         uint64_t seed = 0);
+                         const Environment& environment, const LightPaths& paths,
+                         const AreaLights* area = nullptr, int area_samples = 0, uint64_t seed = 0);
 
 }  // namespace relight

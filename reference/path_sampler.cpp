@@ -30,7 +30,7 @@ PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, co
       connector_(tracer, lights, settings.paths),
       use_light_vertex_(settings.estimator == Estimator::light_vertex && settings.paths.max_bounces >= 1 &&
                         lights.emits()),
-      environment_counts_(settings.paths.environment && !tracer.scene().environment.black()),
+      environment_counts_(settings.paths.environment && !environment.environment().black()),
       sample_extended_lights_(settings.sample_extended_lights) {}
 
 // Strategy "brdf": light reflected by y (found from `distance` away with density `density`) from one light,

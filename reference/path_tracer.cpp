@@ -44,10 +44,11 @@ bool any_glossy(const Scene& scene) {
                      [](const Material& m) { return m.is_glossy(); });
 }
 
-PathClasses path_classes(const Scene& scene, const PathTracerSettings& settings, const AreaLights& area) {
+PathClasses path_classes(const Scene& scene, const Environment& environment,
+                         const PathTracerSettings& settings, const AreaLights& area) {
   if (settings.class_bounces < 0) return {};
   return PathClasses(settings.class_bounces, settings.paths, any_glossy(scene), !area.empty(),
-                     settings.paths.environment && !scene.environment.black());
+                     settings.paths.environment && !environment.black());
 }
 
 // Restricts classes and direct light to the pattern.
@@ -162,15 +163,16 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   const Scene& scene = tracer.scene();
   const LightSampler lights(lighting, scene.bounds.diagonal());
   const AreaLights area(scene, lighting, settings.paths.emission, tracer.offset());
-  const EnvironmentSampler environment(scene.environment);
-  PathClasses classes = path_classes(scene, settings, area);
+  const Environment& light_from_afar = lighting.environment_or(scene.environment);
+  const EnvironmentSampler environment(light_from_afar);
+  PathClasses classes = path_classes(scene, light_from_afar, settings, area);
   PathTracerResult result;
   DirectImage direct;
   {
     StageTimer timer(log, "direct");
     const bool area_apart = settings.paths.min_bounces >= 1 && area.has_shapes();
-    direct = trace_direct(tracer, buffer, lights, settings.paths, area_apart ? &area : nullptr,
-                          settings.area_samples, settings.seed);
+    direct = trace_direct(tracer, buffer, lights, light_from_afar, settings.paths,
+                          area_apart ? &area : nullptr, settings.area_samples, settings.seed);
     apply_pattern(settings.pattern, classes, direct);
     result.direct = direct.total();
   }

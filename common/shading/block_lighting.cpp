@@ -62,6 +62,7 @@ void BlockLighting::shade(std::span<const Light> lights, const std::vector<Reque
   NonFinite bad;
   for (const Light& light : lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
+    require_no_shader(light, "direct lighting on the CPU");
     for (const Emitter& emitter : emitters_of(light, area_light_samples_, tracer_.offset())) {
       {
         const StageTimer timer(log, "shadow_rays");

@@ -7,6 +7,16 @@ namespace {
 
 glm::vec3 lane(const float (&v)[3][block_lanes], size_t i) { return {v[0][i], v[1][i], v[2][i]}; }
 
+// Lane by lane: beams branch, call pow and read slides.
+void shape_beam(const Emitter& light, const SampleBlock& block, BlockRgb& e) {
+  for (size_t i = 0; i < block_lanes; ++i) {
+    const glm::vec3 bare(e.rgb[0][i], e.rgb[1][i], e.rgb[2][i]);
+    if (bare == glm::vec3(0.0f)) continue;
+    const glm::vec3 shaped = bare * light.beam->factor(lane(block.position, i) - light.position());
+    e.rgb[0][i] = shaped.x, e.rgb[1][i] = shaped.y, e.rgb[2][i] = shaped.z;
+  }
+}
+
 void irradiance(const Emitter& light, const SampleBlock& block, BlockRgb& out) {
   const shader::LightParams params = light.params;  // a copy: nothing that the loop writes can be part of it
   for (size_t i = 0; i < block_lanes; ++i) {
@@ -14,6 +24,7 @@ void irradiance(const Emitter& light, const SampleBlock& block, BlockRgb& out) {
         params, lane(block.position, i), lane(block.shading_normal, i), lane(block.geometric_normal, i));
     out.rgb[0][i] = e.x, out.rgb[1][i] = e.y, out.rgb[2][i] = e.z;
   }
+  if (light.beam) shape_beam(light, block, out);
 }
 
 void reflect_diffuse(const BlockRgb& albedo, const BlockRgb& e, BlockRgb& out) {

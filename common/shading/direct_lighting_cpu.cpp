@@ -40,6 +40,7 @@ std::vector<glm::vec3> shade_direct_cpu(const RayTracer& tracer, const std::vect
   std::vector<glm::vec3> radiance(samples.size(), glm::vec3(0.0f));
   for (const Light& light : lighting.lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
+    require_no_shader(light, "direct lighting on the CPU");
     for (const Emitter& emitter : emitters_of(light, area_light_samples, tracer.offset()))
       add_emitter(tracer, samples, eye, emitter, lobes, radiance);
   }

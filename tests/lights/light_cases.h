@@ -17,7 +17,12 @@ Light rectangle_light(const glm::vec3& centre, const glm::vec3& u, const glm::ve
 Light disc_light(const glm::vec3& centre, const glm::vec3& direction, float radius,
                  const glm::vec3& radiance = glm::vec3(5, 4, 3));
 
-// All types, by the light's name.
+// A projector with a slide of 4 x 3 random texels.
+Light projector_light(const glm::vec3& position, const glm::vec3& direction);
+// An uber-light that uses every control, with the same slide.
+Light uber_light(const glm::vec3& position, const glm::vec3& direction);
+
+// All types that the CPU shades, by the light's name.
 std::vector<Light> light_cases();
 
 // For each sample a bound on what rounding of its radiance can refer to: 1/pi x the largest unshadowed

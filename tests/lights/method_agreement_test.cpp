@@ -2,6 +2,7 @@
 // built-in scene.
 #include <gtest/gtest.h>
 
+#include "common/lights/light_animation.h"
 #include "common/scene/scene_file.h"
 #include "reference/path_tracer.h"
 #include "tests/lights/light_cases.h"
@@ -17,7 +18,9 @@ std::vector<Light> cornell_lights() {
           test::spot_light({0.0f, 1.9f, 0.3f}, glm::normalize(glm::vec3(-0.45f, -1.9f, 0.3f)), 20.0f),
           test::directional_light({0.3f, -0.6f, -1.0f}),
           test::rectangle_light({0.0f, 2.0f, 0.1f}, {0.4f, 0, 0}, {0, 0, 0.3f}),
-          test::disc_light({-0.8f, 1.4f, 0.5f}, {1, -0.5f, -0.3f}, 0.25f)};
+          test::disc_light({-0.8f, 1.4f, 0.5f}, {1, -0.5f, -0.3f}, 0.25f),
+          test::projector_light({0.2f, 1.6f, 0.9f}, {-0.2f, -0.8f, -1}),
+          test::uber_light({0.2f, 1.6f, 0.9f}, {-0.2f, -0.8f, -1})};
 }
 
 Image reference_direct(const test::TransferBench& bench, const LightingState& lighting) {
@@ -29,10 +32,10 @@ Image reference_direct(const test::TransferBench& bench, const LightingState& li
 }
 
 // Stated bounds on |A - R| / |R| of the direct image: 1e-5 for lights of one point or direction with traced
-// shadows (rounding, and rays that graze), 0.1 with maps of 1024 texels (edges that are a texel off, in 1 % of
-// the picture; what maps do elsewhere is tested with them); with an area and 64 points
-// 0.02 (the reference's own noise is 0.01). Red if (tried): the method takes the light of an area without its
-// lift from the ceiling; its emitters' cosine is left out; the reference counts rectangles twice.
+// shadows (rounding, and rays that graze), 0.1 with maps of 1024 texels (edges that are a texel off, in 1 %
+// of the picture; what maps do elsewhere is tested with them); with an area and 64 points 0.02 (the
+// reference's own noise is 0.01). Red if (tried): the method takes the light of an area without its lift from
+// the ceiling; its emitters' cosine is left out; the reference counts rectangles twice.
 TEST(EveryLight, GivesTheDirectImageOfTheReference) {
   test::TransferBench bench(load_scene("cornell"));
   const auto cpu = bench.prepare({{"device", "cpu"}, {"area_light_samples", "64"}});
@@ -89,6 +92,30 @@ TEST(AreaLight, IsOneLightOfTheLightCache) {
     shaded.push_back(log.counters().at("lights_shaded"));
   }
   EXPECT_EQ(shaded, (std::vector<int64_t>{2, 2, 1, 1, 1}));
+}
+
+// Frames of an animated lighting in order, on both devices. The lamp that stands still is shaded twice and
+// then kept; before the first and after the last keyframe everything stands. Red if (tried): lights without
+// tracks get new bits; maps of the standing lamp are rendered again.
+TEST(AnimatedLighting, CostsTheMovingLightOnly) {
+  test::TransferBench bench(load_scene(std::string(RELIGHT_SOURCE_DIR) + "/scenes/cornell_lights.toml"), 16,
+                            12);
+  const LightingState sweep = bench.scene.lightings.at("sweep");
+  for (const char* device : {"cpu", "gpu"}) {
+    const auto method = bench.prepare({{"device", device}, {"shadow_map_size", "64"}});
+    std::vector<int64_t> shaded, maps;
+    for (const double time : {0.5, 1.0, 1.5, 2.0, 2.5, 4.0, 4.5, 5.0}) {
+      StageLog log;
+      method->relight(lighting_at(sweep, time), log);
+      shaded.push_back(log.counters().at("lights_shaded"));
+      const auto found = log.counters().find("shadow_maps_rendered");
+      maps.push_back(found == log.counters().end() ? 0 : found->second);
+    }
+    EXPECT_EQ(shaded, (std::vector<int64_t>{2, 2, 1, 1, 1, 1, 1, 0})) << device;
+    if (std::string(device) == "gpu") {
+      EXPECT_EQ(maps, (std::vector<int64_t>{7, 7, 1, 1, 1, 1, 1, 0}));
+    }
+  }
 }
 
 }  // namespace
