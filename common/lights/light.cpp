@@ -69,8 +69,8 @@ void validate_beam(const Light& light, const std::string& who) {
 
 void validate_sky(const Light& light, const std::string& who) {
   const SkySettings& s = light.sky;
-  if (!(s.elevation_degrees >= 0.0f && s.elevation_degrees <= 90.0f))
-    fail("{}: elevation_degrees is {}; valid: 0 to 90", who, s.elevation_degrees);
+  if (!(s.elevation_degrees >= least_elevation_degrees && s.elevation_degrees <= 90.0f))
+    fail("{}: elevation_degrees is {}; valid: {} to 90", who, s.elevation_degrees, least_elevation_degrees);
   if (!(s.turbidity >= least_turbidity && s.turbidity <= largest_turbidity))
     fail("{}: turbidity is {}; valid: {} to {}", who, s.turbidity, least_turbidity, largest_turbidity);
   if (!std::isfinite(s.azimuth_degrees)) fail("{}: azimuth_degrees is {}", who, s.azimuth_degrees);

@@ -78,7 +78,7 @@ Table make_table(LightType type) {
     case LightType::uber:
       return uber_fields();
     case LightType::sun_sky:
-      return {{"elevation_degrees", number, true, 0.0, 90.0},
+      return {{"elevation_degrees", number, true, least_elevation_degrees, 90.0},
               {"azimuth_degrees", number, false, -360.0, 360.0},
               {"turbidity", number, false, least_turbidity, largest_turbidity},
               {"scale", number, false, 0.0}};

@@ -110,6 +110,7 @@ TEST(Beam, OfAnUberLightIsItsFormula) {
 // the roundness itself.
 TEST(Beam, ShapesAreWhatTheyAreCalled) {
   Light light = test::uber_light({0, 0, 0}, {0, 0, -1});
+  light.right = {1, 0, 0};
   light.beam = {0.5f, 0.25f, 0.0f, 0.0f, 1.0f};
   light.slide = nullptr;
   const auto at = [&](float x, float y) {

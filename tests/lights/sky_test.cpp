@@ -19,7 +19,7 @@ glm::vec3 direction(double elevation, double azimuth) {
 // coefficient's sign is wrong (E of the luminance, the constant of x), or turbidity 1 is let in.
 TEST(Sky, IsPositiveForEveryTurbiditySunAndDirection) {
   for (const float turbidity : {2.0f, 3.0f, 5.0f, 8.0f, 10.0f})
-    for (const float elevation : {0.0f, 1.0f, 5.0f, 15.0f, 30.0f, 60.0f, 90.0f}) {
+    for (const float elevation : {2.0f, 5.0f, 15.0f, 30.0f, 60.0f, 90.0f}) {
       const SkySettings sky{elevation, 30.0f, turbidity, 1.0f};
       for (double e = 0.1; e <= 90.0; e += 4.0)
         for (double a = 0.0; a < 360.0; a += 15.0) {
