@@ -22,7 +22,7 @@ using Metric = nanoflann::L2_Simple_Adaptor<float, Points>;
 using Index = nanoflann::KDTreeSingleIndexAdaptor<Metric, Points, 6, uint32_t>;
 
 bool nearer(const Neighbour6& a, const Neighbour6& b) {
-  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index > b.index;
+  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
 }
 
 // Sorted list of the nearest so far. Unlike the library's own it breaks ties by index, so that what is found

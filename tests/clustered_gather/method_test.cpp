@@ -1,5 +1,7 @@
 // The whole method: its three devices against each other, its limits against a plain Monte Carlo sum, and the
-// laws that relighting obeys.
+// laws that relighting obeys. Tried, each red: a cluster's last sample left out; the first link of a texel
+// twice; a link's weight for its neighbours; weights that sum to less than one; a cache key without knobs; a
+// relight knob in it.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
