@@ -6,6 +6,7 @@
 
 #include "common/run/atomic_file.h"
 #include "common/run/error.h"
+#include "common/run/progress.h"
 #include "experiments/compare/compare.h"
 
 namespace relight {
@@ -25,13 +26,6 @@ std::string folder_name(const PlannedRun& run) {
   for (char& c : name)
     if (c == ' ' || c == '/' || c == ':') c = '_';
   return name;
-}
-
-std::string duration(double seconds) {
-  const auto s = static_cast<int64_t>(seconds + 0.5);
-  if (s < 60) return fmt::format("{} s", s);
-  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
-  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
 std::vector<RunRecord> earlier_records(const std::filesystem::path& file) {
@@ -106,10 +100,10 @@ ExperimentResult run_experiment(const RunList& list, const std::filesystem::path
       continue;
     }
     const std::string left =
-        done_now == 0
-            ? ""
-            : fmt::format(", about {} left", duration(seconds_since(start) / static_cast<double>(done_now) *
-                                                      static_cast<double>(list.runs.size() - number + 1)));
+        done_now == 0 ? ""
+                      : fmt::format(", about {} left",
+                                    format_duration(seconds_since(start) / static_cast<double>(done_now) *
+                                                    static_cast<double>(list.runs.size() - number + 1)));
     fmt::print(stderr, "[{}/{}] {}{}\n", number, list.runs.size(), name, left);
     result.records.push_back(run_one(run, sessions, out / name));
     append_record(file, result.records.back());
