@@ -46,8 +46,8 @@ TEST(RenderFrames, ShowTheLightingAtTheirTimes) {
   ASSERT_EQ(run_program(command(folder, "--times 1,0")).exit_code, 0);
   EXPECT_NEAR(brightness(folder / "out/frame_0001.exr"), 2.0f * first, 1e-3f * first);
   EXPECT_NEAR(brightness(folder / "out/frame_0002.exr"), first, 1e-3f * first);
-  // One picture of the same lighting, at --time.
-  ASSERT_EQ(run_program(command(folder, "--time 2")).exit_code, 0);
+  // One picture of the same lighting, at --at.
+  ASSERT_EQ(run_program(command(folder, "--at 2")).exit_code, 0);
   EXPECT_NEAR(brightness(folder / "out/frame.exr"), 3.0f * first, 1e-3f * first);
 }
 
