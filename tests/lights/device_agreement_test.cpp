@@ -23,6 +23,17 @@ size_t lit(const std::vector<glm::vec3>& radiance) {
   return n;
 }
 
+// The lights as they are, and without shadows where they can be: light from outside then falls into the closed
+// room, onto its glossy sphere.
+std::vector<Light> with_and_without_shadows() {
+  std::vector<Light> lights = test::light_cases();
+  for (Light light : test::light_cases()) {
+    light.name += " without shadows", light.casts_shadows = false;
+    if (!has_area(light.type)) lights.push_back(light);
+  }
+  return lights;
+}
+
 // Traced shadows on both. Stated bound: 1e-6 (16 roundings) of rounding_scale_of. Red if (tried): the GPU
 // leaves out the emitter's cosine; takes a directional light's place for its direction; one point of an area
 // is lost.
@@ -30,7 +41,7 @@ TEST(EveryLight, IsTheSameOnTheGpuAndItsCpuTwin) {
   const auto context = gpu::Context::create("osmesa");
   const Room room;
   DirectLighting shading(*context, room.scene, room.tracer, {Shadows::traced, 0});
-  for (const Light& light : test::light_cases()) {
+  for (const Light& light : with_and_without_shadows()) {
     SCOPED_TRACE(light.name);
     const auto scale = test::rounding_scale_of(room.samples, emitters_of(light, 16, room.tracer.offset()));
     for (const Lobes lobes : {Lobes::diffuse, Lobes::all}) {
