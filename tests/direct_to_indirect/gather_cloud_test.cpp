@@ -130,7 +130,7 @@ TEST(GatherCloudForView, LeavesTheInsideOfASolidAlone) {
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
   for (const CloudSampling sampling : {CloudSampling::uniform, CloudSampling::importance}) {
-    const GatherCloud cloud = make_gather_cloud_for_view(tracer, buffer, sampling, 1, 4096, 1);
+    const GatherCloud cloud = make_gather_cloud_for_view(tracer, {buffer}, sampling, 4096, 1);
     int on_block = 0;
     for (const SurfaceSample& s : cloud.samples) {
       if (s.triangle < 10) continue;  // the first five quads are walls: open sheets, seen from either side
@@ -155,7 +155,7 @@ TEST(GatherCloudForView, LeavesBuriedFacesAlone) {
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
   const GatherCloud cloud =
-      make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, 16384, 1);
+      make_gather_cloud_for_view(tracer, {buffer}, CloudSampling::importance, 16384, 1);
   int visible = 0, buried = 0;
   for (const SurfaceSample& s : cloud.samples) {
     if (s.geometric_normal.y < 0.5f) continue;
@@ -174,7 +174,7 @@ TEST(GatherCloudForView, PutsMoreSamplesWhereTheViewGathersMore) {
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
   const ImportanceMap map(tracer, buffer, 1, 1 << 16, 0.5f, 1);
   const GatherCloud cloud =
-      make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, 16384, 1);
+      make_gather_cloud_for_view(tracer, {buffer}, CloudSampling::importance, 16384, 1);
   // Correlation, over the samples, of their bin's particles with their bin's samples.
   std::map<uint64_t, double> count;
   std::vector<uint64_t> bins;

@@ -1,0 +1,50 @@
+#include "methods/direct_to_indirect/lane_haar.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/wavelet/haar.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+const Lanes none{};
+
+}  // namespace
+
+Lanes analyse_lanes(const std::array<const Lanes*, 4>& child, uint32_t node, uint32_t nodes,
+                    std::vector<LaneCoefficient>& out) {
+  Lanes scaling;
+  std::array<Lanes, 3> details;
+  float largest = 0.0f;
+  for (size_t i = 0; i < lanes; ++i) {
+    float d[3];
+    scaling[i] = wavelet::haar_step((*child[0])[i], (*child[1])[i], (*child[2])[i], (*child[3])[i], d);
+    for (size_t t = 0; t < 3; ++t) {
+      details[t][i] = d[t];
+      largest = std::max(largest, std::abs(d[t]));
+    }
+  }
+  if (largest > 0.0f)
+    for (uint32_t t = 0; t < 3; ++t) out.push_back({(t + 1) * nodes + node, details[t]});
+  return scaling;
+}
+
+void forward_lanes(std::vector<LaneCoefficient>& values, uint32_t n, std::vector<LaneCoefficient>& out) {
+  if (values.empty()) return;
+  for (uint32_t nodes = n / 4; nodes > 0; nodes /= 4) {
+    size_t made = 0;
+    for (size_t at = 0; at < values.size();) {
+      const uint32_t node = values[at].index / 4;
+      std::array<const Lanes*, 4> child{&none, &none, &none, &none};
+      for (; at < values.size() && values[at].index / 4 == node; ++at)
+        child[values[at].index % 4] = &values[at].value;
+      // Safe in place: `made` never overtakes the children just read, and the result is complete by then.
+      values[made++] = {node, analyse_lanes(child, node, nodes, out)};
+    }
+    values.resize(made);
+  }
+  out.push_back({0, values[0].value});
+}
+
+}  // namespace relight::direct_to_indirect
