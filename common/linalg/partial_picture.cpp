@@ -37,8 +37,8 @@ PartialPicture::PartialPicture(PictureShape shape, std::span<const uint32_t> pix
   number_at_ = pixel_at_;
   for (uint32_t number = 0; number < pixels.size(); ++number) {
     const auto pixel = static_cast<int>(pixels[number]);
-    const auto cell = static_cast<int>(
-        std::lower_bound(cells.begin(), cells.end(), cell_of(pixels[number])) - cells.begin());
+    const auto cell = static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell_of(pixels[number])) -
+                                       cells.begin());
     const int x = cell % small_across * cell_width + pixel % shape.width % cell_width;
     const int y = cell / small_across * cell_height + pixel / shape.width % cell_height;
     const auto place = static_cast<size_t>(y) * static_cast<size_t>(small_.width) + static_cast<size_t>(x);

@@ -1,6 +1,6 @@
-// Some pixels of a picture laid out as a smaller picture: the cells of 16x8 pixels that hold any of them, side by
-// side. Neighbours within a cell stay neighbours, which the forms of the transfer product count on, and nothing is
-// stored for the rest of the picture.
+// Some pixels of a picture laid out as a smaller picture: the cells of 16x8 pixels that hold any of them,
+// side by side. Neighbours within a cell stay neighbours, which the forms of the transfer product count on,
+// and nothing is stored for the rest of the picture.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// y += scale * (M x) for a matrix with rows for some pixels of a picture only (partial_picture.h): a second matrix
-// beside the one that writes all of y. Any form of the transfer product (product_list.h) does the work.
+// y += scale * (M x) for a matrix with rows for some pixels of a picture only (partial_picture.h): a second
+// matrix beside the one that writes all of y. Any form of the transfer product (product_list.h) does the
+// work.
 #pragma once
 
 #include <memory>

@@ -50,8 +50,9 @@ FinalGather compute_final_gather(const FinalGatherInput& in, const FinalGatherSe
     return TileGather(in.tracer, in.cloud, in.hierarchy, settings, in.column_scale, in.near_field, glossy);
   };
   const auto make_rows = [&](MatrixPart part) {
-    const float threshold =
-        settings.shared_budget ? shared_budget_threshold(in.buffer, settings, part, columns, make_gather) : 0.0f;
+    const float threshold = settings.shared_budget
+                                ? shared_budget_threshold(in.buffer, settings, part, columns, make_gather)
+                                : 0.0f;
     return RowBuilder(in.buffer, settings, part, columns, threshold);
   };
   RowBuilder diffuse_rows = make_rows(MatrixPart::diffuse);

@@ -1,16 +1,16 @@
-// The final-gather matrices F_d and F_g in wavelet space (Hasan 2006 section 4.3): hierarchical links from view
-// samples to clusters of gather samples, each row transformed to Haar while the tree is walked, so that the
-// cost of a row is proportional to its links and no dense row ever exists; then area-weighted selection of
-// coefficients.
+// The final-gather matrices F_d and F_g in wavelet space (Hasan 2006 section 4.3): hierarchical links from
+// view samples to clusters of gather samples, each row transformed to Haar while the tree is walked, so that
+// the cost of a row is proportional to its links and no dense row ever exists; then area-weighted selection
+// of coefficients.
 //
 // F_ij = max-clamped  cos(theta_i) cos(theta_j) A_j / (pi r^2) V_ij, so that indirect radiance = k_d * (F g)
 // with g the diffuse radiance leaving the gather samples (equation 5, M = 0). cos(theta_i) is taken with the
 // shading normal of the view sample, cos(theta_j) with the geometric normal of the gather sample (it converts
 // area to solid angle).
 //
-// F_g,ij = rho_g cos(theta_i) cos(theta_j) A_j / r^2 V_ij has the value of the view sample's glossy lobe towards
-// the eye, without its colour (glossy_lobe.h), and one row for each glossy view sample only. Its elements come
-// from the same links as F_d's (paper), or from rays that follow the lobe (glossy_rays.h).
+// F_g,ij = rho_g cos(theta_i) cos(theta_j) A_j / r^2 V_ij has the value of the view sample's glossy lobe
+// towards the eye, without its colour (glossy_lobe.h), and one row for each glossy view sample only. Its
+// elements come from the same links as F_d's (paper), or from rays that follow the lobe (glossy_rays.h).
 #pragma once
 
 #include <cstdint>
@@ -81,12 +81,11 @@ struct FinalGather {
 };
 
 // Matrices with one column a wavelet coefficient of the ordered cloud. Logs counters visibility_rays, links,
-// coefficients_before_truncation, non_zeros, energy shares; with `glossy` glossy_pixels, and if there are any,
-// glossy_coefficients_before_truncation and so on. A view without glossy pixels costs what it does without
-// `glossy`, and gives the same bits.
-// Parallel over tiles of 4x4 pixels, whose view samples share their links' cut (refined for the closest of
-// them) and random members, so that visibility is tested by coherent packets of 16 rays. Deterministic for
-// any number of threads.
+// coefficients_before_truncation, non_zeros, energy shares; with `glossy` glossy_pixels, and if there are
+// any, glossy_coefficients_before_truncation and so on. A view without glossy pixels costs what it does
+// without `glossy`, and gives the same bits. Parallel over tiles of 4x4 pixels, whose view samples share
+// their links' cut (refined for the closest of them) and random members, so that visibility is tested by
+// coherent packets of 16 rays. Deterministic for any number of threads.
 FinalGather compute_final_gather(const FinalGatherInput& input, const FinalGatherSettings& settings,
                                  Progress& progress, StageLog& log);
 

@@ -49,6 +49,10 @@ float GlossyLobe::largest_in_cone(const glm::vec3& axis, float cos_b, float sin_
   return cosine > 0.0f ? value(closest) * cosine : 0.0f;
 }
 
+float GlossyLobe::albedo() const {
+  return shader::brdf_glossy_importance(brdf_, normal_, to_eye_) * per_mean_;
+}
+
 GlossyLobe::Sample GlossyLobe::sample(float u_lobe, const glm::vec2& u) const {
   if (!(shader::brdf_glossy_importance(brdf_, normal_, to_eye_) > 0.0f)) return {normal_, 0.0f};
   const glm::vec3 wi = glm::normalize(shader::brdf_glossy_sample(brdf_, normal_, to_eye_, u_lobe, u));

@@ -1,6 +1,6 @@
-// The glossy part of a view sample's reflection, split into a colour and a scalar lobe (Hasan 2006 section 3.3,
-// equations 4, 6 and 8): f_g(wi) = k_g rho_g(wi), so that F_g has one number an element and its rows don't
-// depend on the colour.
+// The glossy part of a view sample's reflection, split into a colour and a scalar lobe (Hasan 2006
+// section 3.3, equations 4, 6 and 8): f_g(wi) = k_g rho_g(wi), so that F_g has one number an element and its
+// rows don't depend on the colour.
 //
 // rho_g is the mean of the channels of brdf_glossy() over the mean of `glossy`. Phong, grey surfaces and
 // Lafortune lobes of one colour are such a product exactly: k_g = glossy. Where the Fresnel term makes the
@@ -37,6 +37,9 @@ class GlossyLobe {
   // rho_g x cosine to the shading normal where the lobe is largest within the cone of half-angle b < 90
   // degrees about `axis` (unit): an estimate, taken in the cone's direction closest to the mirror direction.
   float largest_in_cone(const glm::vec3& axis, float cos_b, float sin_b) const;
+  // About what the whole lobe reflects of even light: its directional albedo over the mean of `glossy`, with
+  // the Fresnel term of a mirror. Above 1 where Fresnel makes a coat brighter than its F0.
+  float albedo() const;
   // A direction from the lobe's own distribution, and rho_g x cosine / density of it; 0 if it is below the
   // shading normal or the density is 0. u_lobe in [0,1) chooses among several lobes.
   struct Sample {

@@ -1,7 +1,7 @@
-// Elements of the glossy final-gather matrix F_g from rays that follow the view sample's lobe, each snapped to
-// the gather sample in whose cell it ends. Not in the paper, whose links evaluate the lobe at one point of a
-// cell (section 4.3): a lobe narrower than a cell then hits or misses the point. Here an element is the share of
-// the lobe that falls into the cell, whatever its width, and there is no 1/r^2.
+// Elements of the glossy final-gather matrix F_g from rays that follow the view sample's lobe, each snapped
+// to the gather sample in whose cell it ends. Not in the paper, whose links evaluate the lobe at one point of
+// a cell (section 4.3): a lobe narrower than a cell then hits or misses the point. Here an element is the
+// share of the lobe that falls into the cell, whatever its width, and there is no 1/r^2.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ class GlossyRays {
   GlossyRays(const RayTracer& tracer, const GatherCloud& cloud, int rays, uint64_t seed)
       : tracer_(tracer), cells_(cloud), rays_(rays), seed_(seed) {}
 
-  // Elements of a tile's rows by gather sample, ascending. lobes[i] and samples[i] count where bit i of `mask`
-  // is set. `tile` selects the random numbers; rays that were shot are added to `rays`. Thread-safe.
+  // Elements of a tile's rows by gather sample, ascending. lobes[i] and samples[i] count where bit i of
+  // `mask` is set. `tile` selects the random numbers; rays that were shot are added to `rays`. Thread-safe.
   void elements(const std::array<const SurfaceSample*, lanes>& samples,
                 const std::array<GlossyLobe, lanes>& lobes, uint32_t mask, uint64_t tile,
                 std::vector<LaneCoefficient>& out, int64_t& rays) const;

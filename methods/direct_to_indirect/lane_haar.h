@@ -1,5 +1,5 @@
-// The Haar transform of sparse rows of a tile's 16 lanes at once: what the walk of tile_gather.h does for links,
-// for rows whose elements come from elsewhere.
+// The Haar transform of sparse rows of a tile's 16 lanes at once: what the walk of tile_gather.h does for
+// links, for rows whose elements come from elsewhere.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace relight::direct_to_indirect {
 
-// One node of a level with `nodes` of them: the scaling coefficient from its four children's; appends the details
-// if any is not zero.
+// One node of a level with `nodes` of them: the scaling coefficient from its four children's; appends the
+// details if any is not zero.
 Lanes analyse_lanes(const std::array<const Lanes*, 4>& child, uint32_t node, uint32_t nodes,
                     std::vector<LaneCoefficient>& out);
 

@@ -71,9 +71,8 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
                                    static_cast<int>(knobs.integer("near_rays")), context.seed};
   std::vector<SurfaceSample> points;
   if (kind == "cell_average")
-    points =
-        make_cloud(context, points_a_cell * static_cast<int64_t>(cloud.samples.size()), context.seed + 1)
-            .samples;
+    points = make_cloud(context, points_a_cell * static_cast<int64_t>(cloud.samples.size()), context.seed + 1)
+                 .samples;
   return std::make_unique<NearField>(context.tracer, cloud, hierarchy, settings, points);
 }
 
@@ -119,9 +118,14 @@ Artefact precompute(const PrepareContext& context) {
     rays.emplace(context.tracer, artefact.cloud, static_cast<int>(knobs.integer("glossy_rays")),
                  context.seed);
   const GlossyGather glossy_gather{context.buffer.view.camera.eye, rays ? &*rays : nullptr};
-  const FinalGatherInput input{context.tracer,   context.buffer, artefact.cloud,
-                               hierarchy,        scale,          training,
-                               near_field.get(), knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr};
+  const FinalGatherInput input{context.tracer,
+                               context.buffer,
+                               artefact.cloud,
+                               hierarchy,
+                               scale,
+                               training,
+                               near_field.get(),
+                               knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;

@@ -159,13 +159,15 @@ class PreparedTransfer : public Prepared {
     const std::vector<glm::vec3> sums = relight::multiply(matrix_.diffuse, g);
     std::vector<glm::vec4> v(sums.size());
     for (size_t i = 0; i < v.size(); ++i) v[i] = glm::vec4(sums[i] * kd_[i], 0.0f);
-    const std::vector<glm::vec3> glossy = relight::multiply(matrix_.glossy, g);
-    for (size_t i = 0; i < glossy.size(); ++i)
-      v[matrix_.glossy_pixels[i]] += glm::vec4(glossy[i] * kg_[i], 0.0f);
+    if (!kg_.empty()) {
+      const std::vector<glm::vec3> glossy = relight::multiply(matrix_.glossy, g);
+      for (size_t i = 0; i < glossy.size(); ++i)
+        v[matrix_.glossy_pixels[i]] += glm::vec4(glossy[i] * kg_[i], 0.0f);
+    }
     indirect_.upload(0, indirect_.bytes(), v.data());
   }
 
-  FinalGather matrix_;  // empty once products are made of it
+  FinalGather matrix_;              // empty once products are made of it
   std::vector<glm::vec3> kd_, kg_;  // of all pixels, of the glossy ones
   bool oracle_;
   LitSamples samples_;
@@ -174,7 +176,7 @@ class PreparedTransfer : public Prepared {
   std::optional<MultiBounceLight> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;
   gpu::Buffer indirect_;
-  std::unique_ptr<TransferProductGpu> product_;  // none for the oracle
+  std::unique_ptr<TransferProductGpu> product_;      // none for the oracle
   std::optional<PartialProductGpu> glossy_product_;  // none without glossy pixels
 };
 

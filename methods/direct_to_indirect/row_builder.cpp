@@ -8,8 +8,7 @@ void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& co
   const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
   for (size_t i = 0; i < lanes; ++i) {
     scratch.rows[i] = {};
-    if (samples[i] && has_row(*samples[i]))
-      scratch.rows[i] = select(scratch, coefficients, i, *samples[i]);
+    if (samples[i] && has_row(*samples[i])) scratch.rows[i] = select(scratch, coefficients, i, *samples[i]);
   }
   if (scratch.refit) scratch.refit->refit(coefficients, scratch.rows);
   TileRows& rows = tiles_[static_cast<size_t>(t)];
@@ -44,8 +43,8 @@ SparseRows RowBuilder::finish() const {
 }
 
 // What the row keeps, or with a refit: what it may keep, and how many of them.
-RefitRow RowBuilder::select(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, size_t lane,
-                            const SurfaceSample& sample) const {
+RefitRow RowBuilder::select(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients,
+                            size_t lane, const SurfaceSample& sample) const {
   std::vector<Candidate>& candidates = scratch.candidates;
   const float factor = settings_.shared_budget ? row_factor(sample, part_) : 1.0f;
   collect_candidates(coefficients, lane, settings_.support_exponent, columns_, factor, candidates);
@@ -58,9 +57,8 @@ RefitRow RowBuilder::select(RowScratch& scratch, const std::vector<LaneCoefficie
   RefitRow row;
   row.target = candidates.size();
   if (settings_.shared_budget)
-    row.target = static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), [this](const Candidate& c) {
-      return c.weight > threshold_;
-    }));
+    row.target = static_cast<size_t>(std::count_if(
+        candidates.begin(), candidates.end(), [this](const Candidate& c) { return c.weight > threshold_; }));
   row.target = std::min(row.target, settings_.row_limit(part_));
   if (settings_.energy_fraction < 1.0)
     row.target = std::min(row.target, count_for_energy(candidates, settings_.energy_fraction));

@@ -1,5 +1,5 @@
-// The rows of one final-gather matrix, made tile by tile from all coefficients of their walk: truncated, refitted
-// if asked for, and collected in the order of the pixels.
+// The rows of one final-gather matrix, made tile by tile from all coefficients of their walk: truncated,
+// refitted if asked for, and collected in the order of the pixels.
 #pragma once
 
 #include <array>

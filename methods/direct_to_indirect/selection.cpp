@@ -79,7 +79,8 @@ float shared_budget_threshold(const DeepFrameBuffer& buffer, const FinalGatherSe
       if (part == MatrixPart::glossy && !is_glossy(*samples[lane])) continue;
       ++rows[i];
       collect_candidates(part == MatrixPart::diffuse ? gather.coefficients() : gather.glossy_coefficients(),
-                         lane, settings.support_exponent, columns, row_factor(*samples[lane], part), candidates);
+                         lane, settings.support_exponent, columns, row_factor(*samples[lane], part),
+                         candidates);
       keep_largest(candidates, limit);
       for (const Candidate& c : candidates) weights[i].push_back(c.weight);
     }

@@ -161,14 +161,15 @@ LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
   return value;
 }
 
-// F_g = pi rho_g F_d of unoccluded links to a point, F_d bounded as the diffuse element is. No element exceeds 1,
-// about what a whole lobe reflects: the lobe of a close or sharp link may be narrower than the cell.
+// F_g = pi rho_g F_d of unoccluded links to a point, F_d bounded as the diffuse element is. No element
+// exceeds what the whole lobe reflects: it may be narrower than the cell that the point stands for.
 Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const {
   Lanes value{};
   for (size_t i = 0; i < lanes; ++i) {
     if (!(mask >> i & 1u)) continue;
     const glm::vec3 wi = glm::normalize(member - glm::vec3(px_[i], py_[i], pz_[i]));
-    value[i] = std::min(1.0f, std::numbers::pi_v<float> * lobe_[i].value(wi) * bounded[i]);
+    const float element = std::numbers::pi_v<float> * lobe_[i].value(wi) * bounded[i];
+    value[i] = element > 0.0f ? std::min(lobe_[i].albedo(), element) : 0.0f;
   }
   return value;
 }

@@ -51,8 +51,8 @@ class TileGather {
         glossy_(glossy) {}
 
   // samples: 16 pointers, null where there is none. tile: a number that selects the random members.
-  // Fills coefficients() and, for the lanes that are glossy, glossy_coefficients() with every coefficient that
-  // is not zero for all lanes, in no particular order.
+  // Fills coefficients() and, for the lanes that are glossy, glossy_coefficients() with every coefficient
+  // that is not zero for all lanes, in no particular order.
   void gather(const std::array<const SurfaceSample*, lanes>& samples, uint64_t tile);
   const std::vector<LaneCoefficient>& coefficients() const { return coefficients_; }
   const std::vector<LaneCoefficient>& glossy_coefficients() const { return glossy_coefficients_; }

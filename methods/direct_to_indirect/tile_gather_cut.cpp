@@ -1,5 +1,5 @@
-// Which clusters the walk of tile_gather.h enters, and which it takes as a whole: culling by planes and normal
-// cones, and the solid-angle heuristic.
+// Which clusters the walk of tile_gather.h enters, and which it takes as a whole: culling by planes and
+// normal cones, and the solid-angle heuristic.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -73,8 +73,8 @@ bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const 
          lobes_need_subdivision(cluster, mask & linked_lobes_);
 }
 
-// The same with the lobe (section 4.3: "force more subdivision around the peak of the lobe"): a cluster counts
-// as if it were as many times larger as pi rho_g cos exceeds the 1 / 1 of a Lambert surface.
+// The same with the lobe (section 4.3: "force more subdivision around the peak of the lobe"): a cluster
+// counts as if it were as many times larger as pi rho_g cos exceeds the 1 / 1 of a Lambert surface.
 bool TileGather::lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const {
   const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
   const float radius2 = glm::dot(half, half);

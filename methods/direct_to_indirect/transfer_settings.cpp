@@ -31,8 +31,8 @@ void log_product(const std::string& name, const ProductStatistics& statistics, S
 void log_matrices(const FinalGather& matrix, StageLog& log) {
   log.bytes("final_gather_matrix", matrix.diffuse.bytes());
   if (!matrix.glossy_pixels.empty())
-    log.bytes("glossy_matrix", matrix.glossy.bytes() +
-                                   static_cast<int64_t>(matrix.glossy_pixels.size() * sizeof(uint32_t)));
+    log.bytes("glossy_matrix",
+              matrix.glossy.bytes() + static_cast<int64_t>(matrix.glossy_pixels.size() * sizeof(uint32_t)));
 }
 
 }  // namespace relight::direct_to_indirect
