@@ -80,11 +80,13 @@ KnobTable knob_table() {
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
            "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h); rays instead of the clamp between close points (near_field.h); 16-bit weights.",
+           "(light_refit.h); rays instead of the clamp between close points (near_field.h) and along "
+           "glossy lobes (glossy_rays.h); 16-bit weights.",
            {{"support_exponent", "0.8"},
             {"refit_lights", "2048"},
             {"refit_candidates", "1.5"},
             {"near_field", "hemisphere"},
+            {"glossy_gather", "rays"},
             {"weights", "16"}}}};
 }
 

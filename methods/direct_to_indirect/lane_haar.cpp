@@ -1,7 +1,6 @@
 #include "methods/direct_to_indirect/lane_haar.h"
 
-#include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "common/wavelet/haar.h"
 
@@ -16,16 +15,16 @@ Lanes analyse_lanes(const std::array<const Lanes*, 4>& child, uint32_t node, uin
                     std::vector<LaneCoefficient>& out) {
   Lanes scaling;
   std::array<Lanes, 3> details;
-  float largest = 0.0f;
+  uint32_t any_bits = 0;  // of the details, but for their signs
   for (size_t i = 0; i < lanes; ++i) {
     float d[3];
     scaling[i] = wavelet::haar_step((*child[0])[i], (*child[1])[i], (*child[2])[i], (*child[3])[i], d);
     for (size_t t = 0; t < 3; ++t) {
       details[t][i] = d[t];
-      largest = std::max(largest, std::abs(d[t]));
+      any_bits |= std::bit_cast<uint32_t>(d[t]) & 0x7fffffffu;
     }
   }
-  if (largest > 0.0f)
+  if (any_bits)
     for (uint32_t t = 0; t < 3; ++t) out.push_back({(t + 1) * nodes + node, details[t]});
   return scaling;
 }

@@ -1,14 +1,17 @@
 #include "methods/direct_to_indirect/row_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace relight::direct_to_indirect {
 
 void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t) {
   const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
+  select_largest(coefficients, settings_.support_exponent, columns_, row_factors(samples),
+                 candidate_limit(scratch), scratch.selection);
   for (size_t i = 0; i < lanes; ++i) {
     scratch.rows[i] = {};
-    if (samples[i] && has_row(*samples[i])) scratch.rows[i] = select(scratch, coefficients, i, *samples[i]);
+    if (samples[i] && has_row(*samples[i])) scratch.rows[i] = select(scratch, i);
   }
   if (scratch.refit) scratch.refit->refit(coefficients, scratch.rows);
   TileRows& rows = tiles_[static_cast<size_t>(t)];
@@ -42,17 +45,24 @@ SparseRows RowBuilder::finish() const {
   return rows;
 }
 
+Lanes RowBuilder::row_factors(const std::array<const SurfaceSample*, lanes>& samples) const {
+  Lanes factors;
+  for (size_t i = 0; i < lanes; ++i)
+    factors[i] = settings_.shared_budget && samples[i] ? row_factor(*samples[i], part_) : 1.0f;
+  return factors;
+}
+
+// Of a row's coefficients no more are looked at.
+size_t RowBuilder::candidate_limit(const RowScratch& scratch) const {
+  return static_cast<size_t>(
+      std::ceil(std::max(surplus(scratch), 1.0f) * static_cast<float>(settings_.row_limit(part_))));
+}
+
 // What the row keeps, or with a refit: what it may keep, and how many of them.
-RefitRow RowBuilder::select(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients,
-                            size_t lane, const SurfaceSample& sample) const {
-  std::vector<Candidate>& candidates = scratch.candidates;
-  const float factor = settings_.shared_budget ? row_factor(sample, part_) : 1.0f;
-  collect_candidates(coefficients, lane, settings_.support_exponent, columns_, factor, candidates);
-  double energy = 0.0;
-  for (const Candidate& c : candidates)
-    energy += static_cast<double>(c.entry.value) * static_cast<double>(c.entry.value);
-  scratch.totals.before += static_cast<int64_t>(candidates.size());
-  scratch.totals.energy_before += energy;
+RefitRow RowBuilder::select(RowScratch& scratch, size_t lane) const {
+  std::vector<Candidate>& candidates = scratch.selection.largest[lane];
+  scratch.totals.before += scratch.selection.count[lane];
+  scratch.totals.energy_before += scratch.selection.energy[lane];
 
   RefitRow row;
   row.target = candidates.size();
@@ -61,9 +71,9 @@ RefitRow RowBuilder::select(RowScratch& scratch, const std::vector<LaneCoefficie
         candidates.begin(), candidates.end(), [this](const Candidate& c) { return c.weight > threshold_; }));
   row.target = std::min(row.target, settings_.row_limit(part_));
   if (settings_.energy_fraction < 1.0)
-    row.target = std::min(row.target, count_for_energy(candidates, settings_.energy_fraction));
-  const float surplus = scratch.refit ? settings_.refit_candidates : 1.0f;
-  keep_largest(candidates, static_cast<size_t>(surplus * static_cast<float>(row.target)));
+    row.target = std::min(
+        row.target, count_for_energy(candidates, settings_.energy_fraction * scratch.selection.energy[lane]));
+  keep_largest(candidates, static_cast<size_t>(surplus(scratch) * static_cast<float>(row.target)));
   for (const Candidate& c : candidates) row.entries.push_back(c.entry);
   return row;
 }

@@ -31,7 +31,7 @@ struct RowTotals {
 struct RowScratch {
   std::optional<LightRefit> refit;  // none: coefficients stay as they are
   std::array<RefitRow, lanes> rows;
-  std::vector<Candidate> candidates;
+  LaneSelection selection;
   RowTotals totals;
 };
 
@@ -62,8 +62,10 @@ class RowBuilder {
   bool has_row(const SurfaceSample& sample) const {
     return part_ == MatrixPart::diffuse ? sample.valid : is_glossy(sample);
   }
-  RefitRow select(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, size_t lane,
-                  const SurfaceSample& sample) const;
+  Lanes row_factors(const std::array<const SurfaceSample*, lanes>& samples) const;
+  size_t candidate_limit(const RowScratch& scratch) const;
+  float surplus(const RowScratch& scratch) const { return scratch.refit ? settings_.refit_candidates : 1.0f; }
+  RefitRow select(RowScratch& scratch, size_t lane) const;
 
   const DeepFrameBuffer& buffer_;
   const FinalGatherSettings& settings_;

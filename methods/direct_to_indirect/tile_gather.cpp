@@ -1,6 +1,7 @@
 #include "methods/direct_to_indirect/tile_gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -35,7 +36,7 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
     px_[i] = s.position.x, py_[i] = s.position.y, pz_[i] = s.position.z;
     sx_[i] = s.shading_normal.x, sy_[i] = s.shading_normal.y, sz_[i] = s.shading_normal.z;
     gx_[i] = s.geometric_normal.x, gy_[i] = s.geometric_normal.y, gz_[i] = s.geometric_normal.z;
-    ray_start_[i] = tracer_.offset_point(s.position, s.geometric_normal);
+    ray_start_.set(static_cast<unsigned>(i), tracer_.offset_point(s.position, s.geometric_normal));
     if (!near_field_) continue;
     near_field_->elements(s, tile * lanes + i, near_[i], counts_.near_rays);
     counts_.near_elements += static_cast<int64_t>(near_[i].size());
@@ -117,18 +118,19 @@ LanePair TileGather::leaf(size_t level, size_t index, uint32_t mask) {
   return value;
 }
 
-// Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`
-// equal values F is F sqrt(size), and the details inside the cluster are zero.
-LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
-  const size_t size = cloud_.samples.size() / tree_.levels[level].size();
-  const uint64_t random =
+size_t TileGather::random_member(size_t level, size_t index, size_t size) const {
+  const uint64_t bits =
       random_bits(settings_.seed, stream, tile_, (static_cast<uint64_t>(level) << 32) | index);
-  const size_t member = index * size + (size > 1 ? static_cast<size_t>(random % size) : 0);
-  const SurfaceSample& g = cloud_.samples[member];
-  const float scaled_area = cloud_.area[member] * std::numbers::inv_pi_v<float>;
-  const glm::vec3 q = g.position, nq = g.geometric_normal;
+  return static_cast<size_t>(bits % size);
+}
 
-  LanePair value;
+// Elements of the matrix without visibility, and the lanes where they are positive. One loop without
+// branches, so that it becomes vector code; lanes of no view sample may hold anything.
+uint32_t TileGather::elements(const GatherPoint& g, Lanes& value) const {
+  const float scaled_area = g.area * std::numbers::inv_pi_v<float>;
+  const float disc_area = settings_.disc_elements ? scaled_area : 0.0f;
+  const float clamp = settings_.disc_elements ? INFINITY : settings_.form_factor_clamp;
+  const glm::vec3 q = g.position, nq = g.normal;
   std::array<uint32_t, lanes> positive;
   for (size_t i = 0; i < lanes; ++i) {
     const float wx = q.x - px_[i], wy = q.y - py_[i], wz = q.z - pz_[i];
@@ -136,27 +138,38 @@ LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
     const float cos_view = sx_[i] * wx + sy_[i] * wy + sz_[i] * wz;  // times r
     const float above = gx_[i] * wx + gy_[i] * wy + gz_[i] * wz;
     const float cos_gather = -(nq.x * wx + nq.y * wy + nq.z * wz);  // times r
-    const bool faces = cos_view > 0.0f && above > 0.0f && cos_gather > 0.0f && r2 > 0.0f;
-    // Dividing twice by r2 keeps tiny scenes from underflowing r^4.
-    const float far = (cos_view / r2) * (cos_gather / r2) * scaled_area;
-    // pi r^2 / (pi r^2 + A) turns a point's form factor into a disc's
-    const float bounded = settings_.disc_elements ? far * (r2 / (r2 + scaled_area))
-                                                  : std::min(far, settings_.form_factor_clamp);
-    value.diffuse[i] = faces ? bounded : 0.0f;
-    positive[i] = value.diffuse[i] > 0.0f ? 1 : 0;
+    // Dividing twice keeps tiny scenes from underflowing r^4. pi r^2 + A instead of pi r^2 turns a point's
+    // form factor into a disc's.
+    const float element = (cos_view / r2) * (cos_gather / (r2 + disc_area)) * scaled_area;
+    const float bounded = std::min(element, clamp);
+    const bool faces =
+        (cos_view > 0.0f) & (above > 0.0f) & (cos_gather > 0.0f) & (r2 > 0.0f) & (bounded > 0.0f);
+    value[i] = faces ? bounded : 0.0f;
+    positive[i] = faces ? 1 : 0;
   }
-  mask &= to_mask(positive);
-  if (linked_lobes_ & mask) value.glossy = glossy_elements(q, value.diffuse, linked_lobes_ & mask);
+  return to_mask(positive);
+}
+
+// Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`
+// equal values F is F sqrt(size), and the details inside the cluster are zero.
+LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
+  const size_t size = cloud_.samples.size() / tree_.levels[level].size();
+  const size_t member = index * size + (size > 1 ? random_member(level, index, size) : 0);
+  const GatherPoint& g = tree_.points[member];
+  LanePair value;
+  mask &= elements(g, value.diffuse);
+  if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
   counts_.links += std::popcount(mask);
   counts_.rays += std::popcount(mask);
-  const uint32_t visible = mask ? tracer_.visible16(ray_start_.data(), tracer_.offset_point(q, nq), mask) : 0;
+  const uint32_t visible =
+      mask ? tracer_.visible16(ray_start_, tracer_.offset_point(g.position, g.normal), mask) : 0;
   // The scaled element F / w of one member stands for all of them, too.
   const float factor =
       std::sqrt(static_cast<float>(size)) / (column_scale_.empty() ? 1.0f : column_scale_[member]);
   for (size_t i = 0; i < lanes; ++i) {
-    const float seen = (visible >> i & 1u) ? factor : 0.0f;
-    value.diffuse[i] *= seen;
-    value.glossy[i] *= seen;
+    const bool seen = visible >> i & 1u;
+    value.diffuse[i] = seen ? value.diffuse[i] * factor : 0.0f;
+    value.glossy[i] = seen ? value.glossy[i] * factor : 0.0f;
   }
   return value;
 }

@@ -69,6 +69,8 @@ class TileGather {
   bool lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const;
   uint32_t with_near_members(size_t level, size_t index, uint32_t mask) const;
   LanePair leaf(size_t level, size_t index, uint32_t mask);
+  size_t random_member(size_t level, size_t index, size_t size) const;
+  uint32_t elements(const GatherPoint& g, Lanes& value) const;
 
   const RayTracer& tracer_;
   const GatherCloud& cloud_;
@@ -80,7 +82,7 @@ class TileGather {
   uint64_t tile_ = 0;
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
-  std::array<glm::vec3, lanes> ray_start_{};
+  Points16 ray_start_;
   std::array<std::vector<NearElement>, lanes> near_;  // by view sample
   uint32_t linked_lobes_ = 0;                         // lanes whose links carry glossy elements
   std::array<GlossyLobe, lanes> lobe_;

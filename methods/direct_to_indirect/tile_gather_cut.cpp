@@ -28,7 +28,7 @@ uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
   for (size_t i = 0; i < lanes; ++i) {
     const float s = support(sx_[i], sy_[i], sz_[i], px_[i], py_[i], pz_[i]);
     const float g = support(gx_[i], gy_[i], gz_[i], px_[i], py_[i], pz_[i]);
-    above[i] = s > 0.0f && g > 0.0f ? 1 : 0;
+    above[i] = (s > 0.0f) & (g > 0.0f) ? 1 : 0;
   }
   return mask & to_mask(above);
 }
@@ -51,7 +51,7 @@ uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) cons
     const float towards =
         (wx * cluster.cone_axis.x + wy * cluster.cone_axis.y + wz * cluster.cone_axis.z) / std::sqrt(d2);
     const bool away =
-        d2 > radius2 && cos_a * cos_b > sin_a * sin_b && towards < -(sin_a * cos_b + cos_a * sin_b);
+        (d2 > radius2) & (cos_a * cos_b > sin_a * sin_b) & (towards < -(sin_a * cos_b + cos_a * sin_b));
     maybe[i] = away ? 0 : 1;
   }
   return mask & to_mask(maybe);
@@ -60,17 +60,16 @@ uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) cons
 // The solid-angle heuristic of section 4.3, for the closest active view sample.
 bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const {
   const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), diagonal = cluster.hi - cluster.lo;
-  float closest2 = INFINITY;
-  for (size_t i = 0; i < lanes; ++i) {
-    if (!(mask >> i & 1u)) continue;
-    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
-    closest2 = std::min(closest2, wx * wx + wy * wy + wz * wz);
-  }
   // Without a threshold a cluster is never linked as a whole, not even one whose members coincide: their
   // areas may differ.
-  return settings_.link_threshold <= 0.0f ||
-         glm::dot(diagonal, diagonal) > settings_.link_threshold * closest2 ||
-         lobes_need_subdivision(cluster, mask & linked_lobes_);
+  if (settings_.link_threshold <= 0.0f) return true;
+  const float size2 = glm::dot(diagonal, diagonal), threshold = settings_.link_threshold;
+  std::array<uint32_t, lanes> close;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
+    close[i] = size2 > threshold * (wx * wx + wy * wy + wz * wz) ? 1 : 0;
+  }
+  return (mask & to_mask(close)) != 0 || lobes_need_subdivision(cluster, mask & linked_lobes_);
 }
 
 // The same with the lobe (section 4.3: "force more subdivision around the peak of the lobe"): a cluster
