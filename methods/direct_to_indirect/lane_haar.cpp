@@ -1,6 +1,7 @@
 #include "methods/direct_to_indirect/lane_haar.h"
 
 #include <bit>
+#include <cstddef>
 
 #include "common/wavelet/haar.h"
 
