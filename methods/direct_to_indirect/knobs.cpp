@@ -27,6 +27,14 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100)."},
+      {"glossy", choice, precompute, "auto", 0, 0, {"off", "auto"}, "final_gather",
+       "Glossy final-gather matrix: auto computes it where any visible surface is glossy; off leaves glossy reflection of indirect light out."},
+      {"glossy_gather", choice, precompute, "links", 0, 0, {"links", "rays"}, "final_gather",
+       "Elements of the glossy matrix: the lobe's value at linked gather samples (paper), or rays that follow the lobe, snapped to gather samples (glossy_rays.h)."},
+      {"glossy_rays", integer, precompute, "256", 1, 65536, {}, "final_gather",
+       "With glossy_gather=rays: rays of each glossy view sample."},
+      {"glossy_coefficients", integer, precompute, "100", 1, 65536, {}, "truncation",
+       "Wavelet coefficients kept a row of the glossy final-gather matrix (the paper names one number for both matrices: 100)."},
       {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
@@ -74,11 +82,13 @@ KnobTable knob_table() {
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
            "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h); rays instead of the clamp between close points (near_field.h); 16-bit weights.",
+           "(light_refit.h); rays instead of the clamp between close points (near_field.h) and along "
+           "glossy lobes (glossy_rays.h); 16-bit weights.",
            {{"support_exponent", "0.8"},
             {"refit_lights", "2048"},
             {"refit_candidates", "1.5"},
             {"near_field", "hemisphere"},
+            {"glossy_gather", "rays"},
             {"weights", "16"}}}};
 }
 

@@ -1,10 +1,13 @@
 #include "methods/direct_to_indirect/precompute.h"
 
+#include <optional>
+
 #include "common/run/artefact_cache.h"
 #include "common/run/error.h"
 #include "common/sampling/gather_cloud.h"
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/glossy_rays.h"
 #include "methods/direct_to_indirect/hierarchy.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/near_field.h"
@@ -23,6 +26,7 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.disc_elements = knobs.choice("near_field") == "disc";
   settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
+  settings.glossy_coefficients = static_cast<int>(knobs.integer("glossy_coefficients"));
   settings.energy_fraction = knobs.real("energy_fraction");
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
@@ -50,6 +54,12 @@ CloudSampling cloud_sampling(const KnobValues& knobs) {
   return knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
 }
 
+// Where particles of importance go, and how the cloud is spread.
+GatherCloud make_cloud(const PrepareContext& context, int64_t samples, uint64_t seed) {
+  const CloudView view{context.buffer, bounces(context.knobs), context.knobs.choice("glossy") == "auto"};
+  return make_gather_cloud_for_view(context.tracer, view, cloud_sampling(context.knobs), samples, seed);
+}
+
 // Null where links alone are asked for.
 std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const GatherCloud& cloud,
                                            const GatherHierarchy& hierarchy) {
@@ -61,9 +71,7 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
                                    static_cast<int>(knobs.integer("near_rays")), context.seed};
   std::vector<SurfaceSample> points;
   if (kind == "cell_average")
-    points = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
-                                        points_a_cell * static_cast<int64_t>(cloud.samples.size()),
-                                        context.seed + 1)
+    points = make_cloud(context, points_a_cell * static_cast<int64_t>(cloud.samples.size()), context.seed + 1)
                  .samples;
   return std::make_unique<NearField>(context.tracer, cloud, hierarchy, settings, points);
 }
@@ -73,9 +81,7 @@ Artefact precompute(const PrepareContext& context) {
   Artefact artefact;
   {
     StageTimer timer(context.log, "gather_cloud");
-    artefact.cloud =
-        make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
-                                   knobs.integer("gather_samples"), context.seed);
+    artefact.cloud = make_cloud(context, knobs.integer("gather_samples"), context.seed);
   }
   GatherHierarchy hierarchy;
   {
@@ -106,8 +112,20 @@ Artefact precompute(const PrepareContext& context) {
   }
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   StageTimer timer(context.log, "final_gather");
-  const FinalGatherInput input{context.tracer, context.buffer, artefact.cloud,  hierarchy,
-                               scale,          training,       near_field.get()};
+  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(context.buffer).empty();
+  std::optional<GlossyRays> rays;
+  if (glossy && knobs.choice("glossy_gather") == "rays")
+    rays.emplace(context.tracer, artefact.cloud, static_cast<int>(knobs.integer("glossy_rays")),
+                 context.seed);
+  const GlossyGather glossy_gather{context.buffer.view.camera.eye, rays ? &*rays : nullptr};
+  const FinalGatherInput input{context.tracer,
+                               context.buffer,
+                               artefact.cloud,
+                               hierarchy,
+                               scale,
+                               training,
+                               near_field.get(),
+                               knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;

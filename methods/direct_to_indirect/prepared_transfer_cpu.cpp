@@ -2,12 +2,14 @@
 
 #include <optional>
 
+#include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
 #include "common/run/error.h"
 #include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
 #include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
 
@@ -49,6 +51,7 @@ class PreparedTransferCpu : public Prepared {
       : samples_(context, artefact.cloud),
         haar_(artefact.cloud.samples.size()),
         product_(make_product(context, artefact.final_gather)),
+        glossy_product_(make_glossy_product(context, artefact.final_gather)),
         reconstruction_(context.buffer),
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),
@@ -59,8 +62,9 @@ class PreparedTransferCpu : public Prepared {
       context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    context.log.bytes("final_gather_matrix", artefact.final_gather.bytes());
-    log_product(product_->statistics(), context.log);
+    log_matrices(artefact.final_gather, context.log);
+    log_product("transfer", product_->statistics(), context.log);
+    if (glossy_product_) log_product("glossy_transfer", glossy_product_->statistics(), context.log);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
     context.log.bytes("partial_results", direct_.bytes() + haar_.bytes() +
@@ -83,6 +87,10 @@ class PreparedTransferCpu : public Prepared {
       const StageTimer timer(log, "transfer");
       product_->multiply(coefficients_, indirect_);
     }
+    if (glossy_product_) {
+      const StageTimer timer(log, "glossy_transfer");
+      glossy_product_->add(coefficients_, indirect_);
+    }
     FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
     return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};
   }
@@ -91,15 +99,25 @@ class PreparedTransferCpu : public Prepared {
 
  private:
   static std::unique_ptr<TransferProduct> make_product(const PrepareContext& context,
-                                                       const SparseRows& matrix) {
+                                                       const FinalGather& matrix) {
     const View& view = context.buffer.view;
-    return make_product_cpu(context.knobs.choice("product"), matrix, diffuse_albedo(context.buffer),
+    return make_product_cpu(context.knobs.choice("product"), matrix.diffuse, diffuse_albedo(context.buffer),
                             {view.width, view.height}, product_settings(context.knobs));
+  }
+  static std::optional<PartialProductCpu> make_glossy_product(const PrepareContext& context,
+                                                              const FinalGather& matrix) {
+    if (matrix.glossy_pixels.empty()) return std::nullopt;
+    const View& view = context.buffer.view;
+    const std::vector<glm::vec3> kg = glossy_colours(context.buffer, matrix.glossy_pixels);
+    return PartialProductCpu(context.knobs.choice("product"),
+                             {matrix.glossy, matrix.glossy_pixels, kg, {view.width, view.height}},
+                             product_settings(context.knobs));
   }
 
   LitSamples samples_;
   wavelet::HaarCpu haar_;
   std::unique_ptr<TransferProduct> product_;
+  std::optional<PartialProductCpu> glossy_product_;  // none without glossy pixels
   FusedReconstruction reconstruction_;
   std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;

@@ -36,8 +36,8 @@ class TransferBench {
     values.set("gather_samples", "1024");
     values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
-    StageLog log;
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log});
+    prepare_log = {};
+    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log});
   }
 
   Scene scene;
@@ -50,6 +50,7 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
+  StageLog prepare_log;  // of the last prepare
 };
 
 inline double norm(const Image& image) {
