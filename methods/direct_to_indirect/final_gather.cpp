@@ -43,7 +43,13 @@ class Builder {
         view_tiles_(buffer),
         tiles_(static_cast<size_t>(view_tiles_.count())) {}
 
-  int tiles() const { return view_tiles_.count(); }
+  // Numbers of the tiles that are marked, or of all if none is.
+  std::vector<int> chosen(std::span<const uint8_t> marked) const {
+    std::vector<int> out;
+    for (int t = 0; t < view_tiles_.count(); ++t)
+      if (marked.empty() || marked[static_cast<size_t>(t)]) out.push_back(t);
+    return out;
+  }
 
   void tile(Worker& worker, int t) {
     const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
@@ -72,11 +78,13 @@ class Builder {
     rows.entries.reserve(total);
     for (int y = 0; y < buffer_.view.height; ++y)
       for (int x = 0; x < buffer_.view.width; ++x) {
-        const TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
+        TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
         const size_t lane = ViewTiles::lane_of(x, y);
         const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
         rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
         rows.row_start.push_back(rows.entries.size());
+        // Rows that keep every coefficient are large: they are let go as soon as they have been copied.
+        if (lane + 1 == lanes) t.entries = {};
       }
     return rows;
   }
@@ -141,9 +149,10 @@ SparseRows compute_final_gather(const FinalGatherInput& in, const FinalGatherSet
     if (in.training.count > 0) worker.refit.emplace(in.training, settings.refit_ridge);
     return worker;
   });
-  progress.start("final gather", builder.tiles());
-  tbb::parallel_for(0, builder.tiles(), [&](int t) {
-    builder.tile(workers.local(), t);
+  const std::vector<int> chosen = builder.chosen(in.tiles);
+  progress.start("final gather", static_cast<int64_t>(chosen.size()));
+  tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
+    builder.tile(workers.local(), chosen[i]);
     progress.advance();
   });
   progress.finish();

@@ -29,7 +29,8 @@ class NearField;
 
 struct FinalGatherSettings {
   float link_threshold =
-      0.01f;  // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+      0.01f;                 // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+  bool all_members = false;  // a link takes the mean over its cluster's members instead of one of them
   float form_factor_clamp = 0.1f;  // largest element of a link
   bool disc_elements = false;      // links are bounded as discs, cos cos A / (pi r^2 + A), and not clamped
   int coefficients = 100;          // kept a row, or on average a row with shared_budget
@@ -53,6 +54,7 @@ struct FinalGatherInput {
   std::span<const float> column_scale;    // by which columns are divided (column_scaling.h), or empty
   const TrainingLights& training;         // the kept coefficients are refitted to them; none: they are not
   const NearField* near_field = nullptr;  // takes the place of links to near gather samples; or none
+  std::span<const uint8_t> tiles = {};    // by number in ViewTiles: 0 = its rows stay empty; none: all
 };
 
 // One row a view sample of `buffer` (empty for invalid ones), one column a wavelet coefficient of the ordered

@@ -5,6 +5,7 @@
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
 #include "common/linalg/product_list.h"
+#include "common/sampling/pixel_subset.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
@@ -29,7 +30,7 @@ struct LitSamples {
 
   LitSamples(const PrepareContext& context, const GatherCloud& cloud)
       : gather(cloud.samples, context.buffer.view.camera.eye),
-        view(context.buffer.direct, context.buffer.view.camera.eye),
+        view(wanted_direct_samples(context.buffer), context.buffer.view.camera.eye),
         lighting(context.gpu, context.scene, context.tracer,
                  {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
                   static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
@@ -50,13 +51,13 @@ struct LitSamples {
 
 class PreparedTransfer : public Prepared {
  public:
-  PreparedTransfer(const PrepareContext& context, Artefact artefact)
+  PreparedTransfer(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : matrix_(std::move(artefact.final_gather)),
-        kd_(diffuse_albedo(context.buffer)),
+        kd_(diffuse_albedo(grid)),
         oracle_(context.knobs.choice("device") == "oracle"),
         samples_(context, artefact.cloud),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
-        reconstruction_(context.buffer),
+        reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
     if (artefact.multi_bounce.bounces > 1) {
@@ -67,7 +68,7 @@ class PreparedTransfer : public Prepared {
       context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    make_product(context);
+    make_product(context, picture_shape(grid));
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes());
     context.log.bytes("lighting", samples_.lighting.bytes());
@@ -90,11 +91,10 @@ class PreparedTransfer : public Prepared {
 
  private:
   // Makes the product and lets the matrix go, of which only the oracle needs the floats.
-  void make_product(const PrepareContext& context) {
+  void make_product(const PrepareContext& context, PictureShape shape) {
     context.log.bytes("final_gather_matrix", matrix_.bytes());
     if (oracle_) return;
-    const View& view = context.buffer.view;
-    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, {view.width, view.height},
+    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, shape,
                                 product_settings(context.knobs), context.gpu.max_storage_block_bytes());
     matrix_ = {};
     log_product(product_->statistics(), context.log);
@@ -159,7 +159,8 @@ class PreparedTransfer : public Prepared {
 }  // namespace
 
 std::unique_ptr<Prepared> make_prepared_transfer(const PrepareContext& context, Artefact artefact) {
-  return std::make_unique<PreparedTransfer>(context, std::move(artefact));
+  return std::make_unique<PreparedTransfer>(context, IndirectGrid(context.buffer, context.knobs),
+                                            std::move(artefact));
 }
 
 }  // namespace relight::direct_to_indirect

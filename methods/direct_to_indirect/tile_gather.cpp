@@ -164,13 +164,32 @@ bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const 
          glm::dot(diagonal, diagonal) > settings_.link_threshold * closest2;
 }
 
-// Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`
-// equal values F is F sqrt(size), and the details inside the cluster are zero.
+// The scaling coefficient of `size` equal values F is F sqrt(size), and the details inside the cluster are
+// zero. F is the element of one random member, which is taken for all of them, or with all_members their
+// mean. The scaled element F / w of one member stands for all of them, too.
 Lanes TileGather::link(size_t level, size_t index, uint32_t mask) {
   const size_t size = cloud_.samples.size() / tree_.levels[level].size();
+  const float root = std::sqrt(static_cast<float>(size));
+  if (settings_.all_members && size > 1) {
+    counts_.links += std::popcount(mask);
+    Lanes sum{};
+    for (size_t member = index * size; member < (index + 1) * size; ++member) {
+      const Lanes value = elements(member, 1.0f / root, mask);
+      for (size_t i = 0; i < lanes; ++i) sum[i] += value[i];
+    }
+    return sum;
+  }
   const uint64_t random =
       random_bits(settings_.seed, stream, tile_, (static_cast<uint64_t>(level) << 32) | index);
-  const size_t member = index * size + (size > 1 ? static_cast<size_t>(random % size) : 0);
+  const int64_t rays = counts_.rays;
+  const Lanes value =
+      elements(index * size + (size > 1 ? static_cast<size_t>(random % size) : 0), root, mask);
+  counts_.links += counts_.rays - rays;
+  return value;
+}
+
+// factor x F / w of one gather sample for each lane, 0 where it is not seen.
+Lanes TileGather::elements(size_t member, float factor, uint32_t mask) {
   const SurfaceSample& g = cloud_.samples[member];
   const float scaled_area = cloud_.area[member] * std::numbers::inv_pi_v<float>;
   const glm::vec3 q = g.position, nq = g.geometric_normal;
@@ -193,12 +212,9 @@ Lanes TileGather::link(size_t level, size_t index, uint32_t mask) {
     positive[i] = value[i] > 0.0f ? 1 : 0;
   }
   mask &= to_mask(positive);
-  counts_.links += std::popcount(mask);
   counts_.rays += std::popcount(mask);
   const uint32_t visible = mask ? tracer_.visible16(ray_start_.data(), tracer_.offset_point(q, nq), mask) : 0;
-  // The scaled element F / w of one member stands for all of them, too.
-  const float factor =
-      std::sqrt(static_cast<float>(size)) / (column_scale_.empty() ? 1.0f : column_scale_[member]);
+  if (!column_scale_.empty()) factor /= column_scale_[member];
   for (size_t i = 0; i < lanes; ++i) value[i] = (visible >> i & 1u) ? value[i] * factor : 0.0f;
   return value;
 }

@@ -51,6 +51,7 @@ class TileGather {
  private:
   Lanes visit(size_t level, size_t index, uint32_t mask);
   Lanes link(size_t level, size_t index, uint32_t mask);
+  Lanes elements(size_t member, float factor, uint32_t mask);
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
   bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
