@@ -17,7 +17,7 @@ namespace relight {
 struct SettingRecord {
   std::string label;  // "as asked", "shadows exact", "all exact but shadows"
   std::map<std::string, std::string> knobs;
-  double precompute_s = 0.0;
+  double precompute_s = 0.0;  // without keeping data for other settings
   RelightTime relight_ms;
   std::vector<std::pair<std::string, double>> precompute_stages, relight_stages;  // [s]
 };
