@@ -14,8 +14,7 @@ namespace relight::cli {
 
 namespace {
 
-constexpr const char* description =
-    "Tells which of a method's approximations costs how much of its error, and what each saves.\n\n"
+constexpr const char* lesson =
     "A method is a chain of approximations, each of which has an exact twin that is far too slow for a "
     "picture "
     "but not for a few pixels. On some pixels spread over the view the method runs as asked, then with the "
@@ -51,7 +50,10 @@ int run_explain_error(const ExplainOptions& options) {
 }  // namespace
 
 void add_explain_error_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("explain-error", description);
+  CLI::App* command = app.add_subcommand(
+      "explain-error",
+      "Tells which of a method's approximations costs how much of its error, and what each saves");
+  command->footer(lesson);
   const auto options = std::make_shared<ExplainOptions>();
   add_session_flags(*command, options->session);
   command->add_option("--method", options->method, "Method (see `relight methods`)")

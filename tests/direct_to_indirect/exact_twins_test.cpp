@@ -57,6 +57,8 @@ TEST(ExactTwins, TogetherAreTheSumOverEveryGatherSample) {
   GatherSetup setup(load_scene("cornell"), width, height, 1024);
   const LightingState lighting = setup.scene.lightings.at("near");
   TransferBench bench(load_scene("cornell"), width, height);
+  ArtefactCache clouds = ArtefactCache::in_memory();
+  bench.parts = &clouds;
   const PixelSubset subset = choose_pixels(width, height, 64, glm::ivec2(4), 1);
   bench.buffer.wanted = pixel_mask(subset);
   const Image expected = compact(oracle_picture(setup, bench.buffer.wanted, lighting), subset);
@@ -99,6 +101,8 @@ TEST(ExactTwins, LinksToAllMembersKeepTheSumOfEveryRow) {
 // the GPU).
 TEST(ExactTwins, OfInactiveStagesChangeNoBit) {
   TransferBench bench(load_scene("cornell"), width, height);
+  ArtefactCache clouds = ArtefactCache::in_memory();
+  bench.parts = &clouds;
   const LightingState lighting = bench.scene.lightings.at("near");
   for (const TransferBench::Knobs& asked :
        {TransferBench::Knobs{{"device", "cpu"}},

@@ -42,6 +42,7 @@ bool same_bits(const Image& a, const Image& b) {
 // only).
 TEST(PixelsAlone, AreThoseOfTheWholePictureBitForBitOnTheCpu) {
   TransferBench bench(load_scene("cornell"), width, height);
+  ArtefactCache clouds = ArtefactCache::in_memory();
   for (const TransferBench::Knobs& knobs :
        {TransferBench::Knobs{},
         {{"refit_lights", "64"},
@@ -50,25 +51,35 @@ TEST(PixelsAlone, AreThoseOfTheWholePictureBitForBitOnTheCpu) {
          {"near_rays", "32"}},
         {{"column_scaling", "mean_row"}, {"row_budget", "shared"}, {"coefficients", "30"}},
         {{"upsampling", "none"}, {"link_members", "all"}, {"weights", "float32"}},
-        {{"bounces", "3"}, {"photons", "20000"}, {"photon_neighbours", "100"}, {"product", "rows"}}}) {
+        {{"multi_bounce", "transfer"}, {"product", "rows"}}}) {
     TransferBench::Knobs on_cpu = knobs;
     on_cpu.emplace_back("device", "cpu");
     const Both both = relit(bench, on_cpu, glm::ivec2(4));
     EXPECT_GT(test::norm(both.whole), 0.0);
     EXPECT_TRUE(same_bits(both.whole, both.alone)) << relative_difference(both.alone, both.whole);
+    bench.parts = &clouds;  // the first has shown that clouds are equal; making them is slow
   }
 }
 
-// On the GPU the default product shares the step of 8-bit weights among the 16x8 pixels of a screen tile:
-// whole tiles have the same bits, and of 4x4 pixels alone the steps are finer, so the picture differs by less
-// than the quantisation itself does (0.5 %). Red as above.
-TEST(PixelsAlone, AreThoseOfTheWholePictureOnTheGpuInBlocksOfItsTiles) {
+// The GPU's default product shares the step of 8-bit weights among the 16x8 pixels of a screen tile, and of
+// 4x4 pixels alone the steps are finer: what explain-error shows for `quantisation` is then a little too
+// small, by no more than a half. Blocks of 16x8 have the steps of the whole picture but for sub-pixels that
+// take their light from beyond the block. Red if rows are missing (as above), or the subset's weights are
+// stored in another format.
+TEST(PixelsAlone, OnTheGpuDifferByFinerStepsOfQuantisationOnly) {
   TransferBench bench(load_scene("cornell"), width, height);
-  EXPECT_TRUE(same_bits(relit(bench, {}, {16, 8}).whole, relit(bench, {}, {16, 8}).alone));
-  const Both small = relit(bench, {}, glm::ivec2(4));
-  EXPECT_LT(relative_difference(small.alone, small.whole), 5e-3);
-  const Both floats = relit(bench, {{"weights", "float32"}}, glm::ivec2(4));
-  EXPECT_TRUE(same_bits(floats.whole, floats.alone));
+  ArtefactCache clouds = ArtefactCache::in_memory();
+  bench.parts = &clouds;
+  for (const glm::ivec2 block : {glm::ivec2(4), glm::ivec2(16, 8)}) {
+    const Both floats = relit(bench, {{"weights", "float32"}}, block);
+    EXPECT_TRUE(same_bits(floats.whole, floats.alone));
+    const Both bytes = relit(bench, {}, block);
+    const double whole = relative_difference(bytes.whole, floats.whole),
+                 alone = relative_difference(bytes.alone, floats.whole);
+    RecordProperty(block.x == 4 ? "4x4" : "16x8", std::to_string(alone / whole));
+    EXPECT_GT(alone, (block.x == 4 ? 0.5 : 0.95) * whole);
+    EXPECT_LT(alone, 1.05 * whole);
+  }
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class TransferBench {
     values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
     StageLog log;
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log});
+    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log, parts});
   }
 
   Scene scene;
@@ -50,6 +50,7 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
+  ArtefactCache* parts = nullptr;  // see PrepareContext
 };
 
 inline double norm(const Image& image) {
