@@ -26,42 +26,58 @@ std::vector<const ErrorStage*> active_stages(const ErrorStages& stages) {
   return active;
 }
 
-// Runs the cumulative chain, then each stage alone: first those whose precomputed data the chain's end left
-// in memory.
-void run_settings(const ExplainPlan& plan, SettingRunner& runner, WaterfallInput& input) {
-  const std::vector<const ErrorStage*> active = active_stages(plan.stages);
-  const MethodPlan all_exact = with_exact(plan, active);
+// What is run, in the order that makes the most of precomputed data: the cumulative chain, then each stage
+// alone, first those that share the data of the chain's end.
+struct Settings {
+  MethodPlan all_exact;
+  std::vector<MethodPlan> chain, alone;  // one an active stage
+  std::vector<size_t> order;             // of alone
+  std::vector<MethodPlan> closer;
+
+  explicit Settings(const ExplainPlan& plan) : all_exact(with_exact(plan, active_stages(plan.stages))) {
+    const std::vector<const ErrorStage*> active = active_stages(plan.stages);
+    std::vector<const ErrorStage*> exact;
+    for (const ErrorStage* stage : active) {
+      exact.push_back(stage);
+      chain.push_back(with_exact(plan, exact));
+      std::vector<const ErrorStage*> others = active;
+      std::erase(others, stage);
+      order.push_back(alone.size());
+      alone.push_back(with_exact(plan, others));
+    }
+    std::stable_partition(order.begin(), order.end(), [&](size_t i) {
+      return alone[i].knobs.precompute_key() == all_exact.knobs.precompute_key();
+    });
+    if (!plan.closer) return;
+    for (const ErrorStage& stage : plan.stages.closer) {
+      closer.push_back(all_exact);
+      closer.back().knobs = with_overrides(all_exact.knobs, stage);
+    }
+  }
+  std::vector<MethodPlan> all(const MethodPlan& asked) const {
+    std::vector<MethodPlan> out = {asked};
+    for (const auto* list : {&chain, &alone, &closer}) out.insert(out.end(), list->begin(), list->end());
+    return out;
+  }
+};
+
+void run_settings(const ExplainPlan& plan, const Settings& settings, SettingRunner& runner,
+                  WaterfallInput& input) {
   input.asked = runner.run("as asked", plan.method);
-  std::vector<const ErrorStage*> exact;
+  std::vector<StageResults*> active;
+  input.stages.reserve(plan.stages.stages.size());
   for (const ErrorStage& stage : plan.stages.stages) {
     input.stages.push_back({stage, {}, {}});
     if (!stage.active) continue;
-    exact.push_back(&stage);
-    input.stages.back().exact = runner.run(stage.name + " exact", with_exact(plan, exact));
+    input.stages.back().exact = runner.run(stage.name + " exact", settings.chain[active.size()]);
+    active.push_back(&input.stages.back());
   }
-  std::vector<std::pair<StageResults*, MethodPlan>> alone;
-  for (StageResults& results : input.stages) {
-    if (!results.exact) continue;
-    std::vector<const ErrorStage*> others = active;
-    std::erase_if(others, [&](const ErrorStage* s) { return s->name == results.stage.name; });
-    alone.emplace_back(&results, with_exact(plan, others));
+  for (const size_t i : settings.order)
+    active[i]->alone = runner.run("all exact but " + active[i]->stage.name, settings.alone[i]);
+  for (size_t i = 0; i < settings.closer.size(); ++i) {
+    const ErrorStage& stage = plan.stages.closer[i];
+    input.closer.emplace_back(stage, runner.run("all exact, " + stage.name, settings.closer[i]));
   }
-  std::stable_partition(alone.begin(), alone.end(), [&](const auto& a) {
-    return a.second.knobs.precompute_key() == all_exact.knobs.precompute_key();
-  });
-  for (auto& [results, method] : alone)
-    results->alone = runner.run("all exact but " + results->stage.name, method);
-  if (!plan.closer) return;
-  for (const ErrorStage& stage : plan.stages.closer) {
-    MethodPlan method = all_exact;
-    method.knobs = with_overrides(method.knobs, stage);
-    input.closer.emplace_back(stage, runner.run("all exact, " + stage.name, method));
-  }
-}
-
-int number_of_settings(const ExplainPlan& plan) {
-  const auto active = static_cast<int>(active_stages(plan.stages).size());
-  return 1 + 2 * active + (plan.closer ? static_cast<int>(plan.stages.closer.size()) : 0);
 }
 
 PictureLayout layout_of(const DeepFrameBuffer& chosen, const PixelSubset& subset, float exposure) {
@@ -128,9 +144,10 @@ Explanation explain(const ExplainPlan& plan) {
   input.layout = layout_of(chosen, subset, session.scene().exposure);
   const PathTracerResult reference = trace_reference(plan, session, chosen, out.run);
   input.reference = {reference.total(), reference.indirect};
-  SettingRunner runner(session, subset, plan.repeats, number_of_settings(plan));
+  const Settings settings(plan);
+  SettingRunner runner(session, subset, plan.repeats, settings.all(plan.method));
   out.shared_s = runner.warm_up(plan.method);
-  run_settings(plan, runner, input);
+  run_settings(plan, settings, runner, input);
   out.settings = runner.records();
   out.waterfall = make_waterfall(input);
 

@@ -35,12 +35,14 @@ double own_precompute_s(const MethodRun& run) {
 
 }  // namespace
 
-SettingRunner::SettingRunner(Session& session, const PixelSubset& subset, int repeats, int settings)
-    : session_(session),
-      subset_(subset),
-      repeats_(repeats),
-      settings_(settings),
-      buffer_(with_wanted(session.buffer(), subset)) {}
+SettingRunner::SettingRunner(Session& session, const PixelSubset& subset, int repeats,
+                             const std::vector<MethodPlan>& planned)
+    : session_(session), subset_(subset), repeats_(repeats), buffer_(with_wanted(session.buffer(), subset)) {
+  std::map<std::map<std::string, std::string>, const MethodPlan*> different;
+  for (const MethodPlan& method : planned) different.emplace(method.knobs.all(), &method);
+  settings_ = different.size();
+  for (const auto& [knobs, method] : different) ++to_come_[method->knobs.precompute_key()];
+}
 
 double SettingRunner::warm_up(const MethodPlan& method) {
   if (!session_.options().quiet) fmt::print(stderr, "what all settings share\n");
@@ -54,12 +56,13 @@ double SettingRunner::warm_up(const MethodPlan& method) {
 
 SettingResult SettingRunner::run(const std::string& label, const MethodPlan& method) {
   const auto known = results_.find(method.knobs.all());
-  if (known != results_.end()) {
-    --settings_;
-    return known->second;
-  }
+  if (known != results_.end()) return known->second;
   tell(label);
-  const MethodRun run = run_method(method, session_, {buffer_, artefacts_, &parts_}, repeats_);
+  const bool shared =
+      precompute_s_.contains(method.knobs.precompute_key()) || --to_come_[method.knobs.precompute_key()] > 0;
+  ArtefactCache nothing({}, false);
+  const MethodRun run =
+      run_method(method, session_, {buffer_, shared ? artefacts_ : nothing, &parts_}, repeats_);
   if (!run.failure.empty()) fail("explain-error, {}: {}", label, run.failure);
   keep_warnings(run.precompute);
   keep_warnings(run.relight);
@@ -81,7 +84,8 @@ void SettingRunner::tell(const std::string& label) const {
   if (session_.options().quiet) return;
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const auto done = static_cast<int64_t>(records_.size());
-  fmt::print(stderr, "{}: {}\n", format_progress("settings", done, settings_, elapsed), label);
+  fmt::print(stderr, "{}: {}\n", format_progress("settings", done, static_cast<int64_t>(settings_), elapsed),
+             label);
 }
 
 void SettingRunner::keep_warnings(const StageLog& log) {

@@ -24,8 +24,10 @@ struct SettingRecord {
 
 class SettingRunner {
  public:
-  // All must outlive this. settings: how many run() will be asked for, to tell the time left.
-  SettingRunner(Session& session, const PixelSubset& subset, int repeats, int settings);
+  // All must outlive this. planned: what run() will be asked for: tells the time left, and whose precomputed
+  // data is worth keeping, which may have gigabytes.
+  SettingRunner(Session& session, const PixelSubset& subset, int repeats,
+                const std::vector<MethodPlan>& planned);
 
   // Computes what all settings share (PrepareContext::parts) and whatever is made once a process, so that no
   // setting's time holds it. Returns the seconds that it took.
@@ -45,7 +47,9 @@ class SettingRunner {
 
   Session& session_;
   const PixelSubset& subset_;
-  int repeats_, settings_;
+  int repeats_;
+  size_t settings_;                     // that differ
+  std::map<std::string, int> to_come_;  // settings by precompute key
   DeepFrameBuffer buffer_;
   ArtefactCache artefacts_ = ArtefactCache::in_memory(), parts_ = ArtefactCache::in_memory();
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

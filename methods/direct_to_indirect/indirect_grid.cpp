@@ -1,5 +1,6 @@
 #include "methods/direct_to_indirect/indirect_grid.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "methods/direct_to_indirect/view_tiles.h"
@@ -15,6 +16,12 @@ IndirectGrid::IndirectGrid(const DeepFrameBuffer& buffer, const KnobValues& knob
     subpixels_->indirect = buffer.direct;
   }
   if (!buffer.wanted.empty()) mark_tiles();
+}
+
+double IndirectGrid::tile_share() const {
+  if (tiles_.empty()) return 1.0;
+  return static_cast<double>(std::count(tiles_.begin(), tiles_.end(), 1)) /
+         static_cast<double>(tiles_.size());
 }
 
 void IndirectGrid::mark_tiles() {

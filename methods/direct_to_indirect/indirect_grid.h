@@ -23,6 +23,8 @@ class IndirectGrid {
   // By number in ViewTiles of samples(): 1 = holds a sample that a wanted pixel's light comes from. Whole
   // tiles, because their samples share the cut of the hierarchy. Empty if all pixels are wanted.
   const std::vector<uint8_t>& tiles() const { return tiles_; }
+  // Of all tiles, those that are marked [0,1]; 1 if all pixels are wanted.
+  double tile_share() const;
 
  private:
   void mark_tiles();

@@ -68,7 +68,7 @@ class PreparedTransfer : public Prepared {
       context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    make_product(context, picture_shape(grid));
+    make_product(context, grid);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes());
     context.log.bytes("lighting", samples_.lighting.bytes());
@@ -91,11 +91,11 @@ class PreparedTransfer : public Prepared {
 
  private:
   // Makes the product and lets the matrix go, of which only the oracle needs the floats.
-  void make_product(const PrepareContext& context, PictureShape shape) {
+  void make_product(const PrepareContext& context, const IndirectGrid& grid) {
     context.log.bytes("final_gather_matrix", matrix_.bytes());
     if (oracle_) return;
-    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, shape,
-                                product_settings(context.knobs), context.gpu.max_storage_block_bytes());
+    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, picture_shape(grid),
+                                product_settings(context.knobs, grid), context.gpu.max_storage_block_bytes());
     matrix_ = {};
     log_product(product_->statistics(), context.log);
   }

@@ -52,7 +52,7 @@ class PreparedTransferCpu : public Prepared {
         haar_(artefact.cloud.samples.size()),
         product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather,
                                   diffuse_albedo(grid), picture_shape(grid),
-                                  product_settings(context.knobs))),
+                                  product_settings(context.knobs, grid))),
         reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),

@@ -16,8 +16,9 @@ PictureShape picture_shape(const IndirectGrid& grid) {
   return {grid.samples().view.width, grid.samples().view.height};
 }
 
-ProductSettings product_settings(const KnobValues& knobs) {
+ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& grid) {
   ProductSettings settings;
+  settings.rows_share = grid.tile_share();
   settings.weights = weight_format_from_string(knobs.choice("weights"));
   settings.partial_results =
       knobs.choice("partial_results") == "float16" ? PartialResults::float16 : PartialResults::float32;

@@ -17,7 +17,7 @@ std::vector<glm::vec3> diffuse_albedo(const IndirectGrid& grid);
 PictureShape picture_shape(const IndirectGrid& grid);
 
 // Knobs weights, partial_results, cull_epsilon and block_waste.
-ProductSettings product_settings(const KnobValues& knobs);
+ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& grid);
 
 // Bytes transfer_product, counters transfer_weights_stored, transfer_blocks and transfer_atlases.
 void log_product(const ProductStatistics& statistics, StageLog& log);

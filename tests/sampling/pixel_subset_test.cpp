@@ -24,11 +24,11 @@ Image numbered(int width, int height) {
 // check for blocks that were chosen before).
 TEST(PixelSubset, HoldsAsManyPixelsAsItsMask) {
   for (const glm::ivec2 block : {glm::ivec2(4), glm::ivec2(16, 8)}) {
-    const PixelSubset subset = choose_pixels(61, 45, 500, block, 1);
+    const PixelSubset subset = choose_pixels(61, 45, 2000, block, 1);
     const std::vector<uint8_t> mask = pixel_mask(subset);
     EXPECT_EQ(std::count(mask.begin(), mask.end(), 1), subset.pixels());
-    EXPECT_GE(subset.pixels(), 500);
-    EXPECT_LT(subset.pixels(), 500 + block.x * block.y);
+    EXPECT_GE(subset.pixels(), 2000);
+    EXPECT_LT(subset.pixels(), 2000 + block.x * block.y);
     ASSERT_EQ(subset.block.size(), subset.tiles.size());
     EXPECT_TRUE(std::is_sorted(subset.block.begin(), subset.block.end()));
   }
