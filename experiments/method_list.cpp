@@ -3,6 +3,7 @@
 
 #include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
+#include "methods/clustered_gather/clustered_gather.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "reference/path_tracing_method.h"
 
@@ -11,6 +12,7 @@ namespace relight {
 MethodList make_all_methods() {
   MethodList methods;
   methods.push_back(make_direct_to_indirect());
+  methods.push_back(make_clustered_gather());
   methods.push_back(make_path_tracing());
   return methods;
 }

@@ -5,7 +5,7 @@
 layout(std430, binding = 6) readonly buffer CullThreshold { float cull_threshold; };
 layout(std430, binding = 7) buffer CullCounters { uint culled_blocks, culled_weights; };
 
-// A light that is not a number is not culled: every comparison with it is false.
-bool is_culled(vec3 light, float block_norm) { return length(light) * block_norm <= cull_threshold; }
+// A light that is not a number is not culled: every comparison with it is false. threshold: cull_threshold, read once.
+bool is_culled(vec3 light, float block_norm, float threshold) { return length(light) * block_norm <= threshold; }
 
 #endif

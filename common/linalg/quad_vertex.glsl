@@ -24,7 +24,7 @@ void main() {
   light_step = quad.step * light;
   origin = quad.origin;
   to_texel = unpack(quad.texel) - corner;
-  if (is_culled(light, quad.norm)) {
+  if (is_culled(light, quad.norm, cull_threshold)) {
     if (gl_VertexID == 0) {
       atomicAdd(culled_blocks, 1u);
       atomicAdd(culled_weights, uint(size.x * size.y));

@@ -39,28 +39,26 @@ std::vector<TileEntry> entries_of_tile(const SparseRows& matrix, std::span<const
 
 // Appends the block of one column.
 void append_block(std::span<const TileEntry> entries, WeightFormat format, TileBlocks& out) {
-  int g0 = tile_width, g1 = 0, y0 = tile_height, y1 = 0;
+  int y0 = tile_height, y1 = 0;
   float largest = 0.0f;
   double square = 0.0;
   for (const TileEntry& e : entries) {
-    g0 = std::min(g0, e.x / tile_group), g1 = std::max(g1, e.x / tile_group);
     y0 = std::min(y0, e.y), y1 = std::max(y1, e.y);
     largest = std::max(largest, std::abs(e.weight));
     const double v = static_cast<double>(e.weight) * static_cast<double>(e.response);
     square += v * v;
   }
-  const int across = g1 - g0 + 1, down = y1 - y0 + 1;
+  const int lines = y1 - y0 + 1;
   const float step = quantisation_step(largest, format);
-  out.words.push_back(entries.front().column << 10 | static_cast<uint32_t>(g0) |
-                      static_cast<uint32_t>(across - 1) << 2 | static_cast<uint32_t>(y0) << 4 |
-                      static_cast<uint32_t>(down - 1) << 7);
-  out.words.push_back(std::bit_cast<uint32_t>(step));
-  out.words.push_back(std::bit_cast<uint32_t>(static_cast<float>(std::sqrt(square))));
+  out.words.insert(
+      out.words.end(),
+      {entries.front().column << 8 | static_cast<uint32_t>(y0) | static_cast<uint32_t>(lines - 1) << 3,
+       std::bit_cast<uint32_t>(step), std::bit_cast<uint32_t>(static_cast<float>(std::sqrt(square))), 0u});
   const size_t first = out.words.size();
-  const int weights = across * down * tile_group;
+  const int weights = lines * tile_width;
   out.words.resize(first + static_cast<size_t>(weights * bytes_of(format)) / 4, 0u);
   for (const TileEntry& e : entries) {
-    const int at = ((e.y - y0) * across + e.x / tile_group - g0) * tile_group + e.x % tile_group;
+    const int at = (e.y - y0) * tile_width + e.x;
     pack_weight(e.weight / step, format, out.words.data() + first, static_cast<size_t>(at));
   }
   ++out.blocks;

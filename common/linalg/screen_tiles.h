@@ -1,6 +1,7 @@
-// The list of blocks of a screen tile as 32-bit words, for tile_product.glsl. A block: one word of column (22
-// bits) and rectangle, the weights' step, the block's norm, then its weights, four pixels a group, row by
-// row.
+// The list of blocks of a screen tile as texels of four 32-bit words, for tile_product.glsl. A block: a texel
+// of column (24 bits), first line and lines less one, the weights' step, the block's norm and a zero; then
+// its weights, whole lines of the tile. Whole lines, because a texel is what a software rasteriser reads
+// fastest: a line of 8-bit weights is exactly one.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +14,10 @@
 namespace relight {
 
 constexpr int tile_width = 16, tile_height = 8;
-constexpr int tile_group = 4;  // pixels side by side: the unit of a rectangle's width
-constexpr uint32_t tile_max_columns = 1u << 22;
+constexpr uint32_t tile_max_columns = 1u << 24;
 
 struct TileBlocks {
-  std::vector<uint32_t> words;
+  std::vector<uint32_t> words;      // four a texel
   int64_t blocks = 0, weights = 0;  // weights: stored ones, zeros included
 };
 

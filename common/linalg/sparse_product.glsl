@@ -1,27 +1,29 @@
 // Sparse matrix times vector, one row an invocation: row-based form (Hasan 2006 section 5, "Comparison with row-based
 // multiplication"). Rows of this slab only; each output is scaled by the row's RGB factor (the diffuse albedo k_d times
 // the step of quantised weights).
-// Entries lie in groups of four: COLUMN_BITS (16 or 32) bits a column, then WEIGHT_BITS (8, 16: signed integers; 32:
-// float) bits a weight.
+// Entries lie in groups of sixteen: texels of columns (COLUMN_BITS 16 or 32), then texels of weights.
 #include "common/gpu/item_index.glsl"
 #include "common/linalg/stored_weights.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer GroupStart { uint group_start[]; };
-layout(std430, binding = 1) readonly buffer Words { uint words[]; };
-layout(std430, binding = 2) readonly buffer Vector { vec4 x[]; };
+layout(binding = 1) uniform usamplerBuffer groups;
+layout(binding = 2) uniform samplerBuffer x;
 layout(std430, binding = 3) readonly buffer Scale { vec4 row_scale[]; };
 layout(std430, binding = 4) writeonly buffer Result { vec4 y[]; };
 uniform uint first_row;
 uniform uint rows;
 
-const uint column_words = uint(COLUMN_BITS) / 8u;
-const uint group_words = column_words + uint(WEIGHT_BITS) / 8u;
+const int column_texels = COLUMN_BITS / 8, weight_texels = 16 / texel_weights;
+const int group_texels = column_texels + weight_texels;
 
-uvec4 columns_of_group(uint at) {
+// Columns [4 g, 4 g + 4) of a group.
+uvec4 columns_of(int group, int g) {
 #if COLUMN_BITS == 16
-  return uvec4(words[at] & 0xffffu, words[at] >> 16, words[at + 1u] & 0xffffu, words[at + 1u] >> 16);
+  uvec4 texel = texelFetch(groups, group + g / 2);
+  uvec2 pairs = g % 2 == 0 ? texel.xy : texel.zw;
+  return uvec4(pairs.x & 0xffffu, pairs.x >> 16, pairs.y & 0xffffu, pairs.y >> 16);
 #else
-  return uvec4(words[at], words[at + 1u], words[at + 2u], words[at + 3u]);
+  return texelFetch(groups, group + g);
 #endif
 }
 
@@ -29,11 +31,16 @@ void main() {
   uint local_row = item_index();
   if (local_row >= rows) return;
   vec3 sum = vec3(0.0f);
-  uint end = group_start[local_row + 1u] * group_words;
-  for (uint at = group_start[local_row] * group_words; at < end; at += group_words) {
-    uvec4 c = columns_of_group(at);
-    vec4 w = STORED_WEIGHTS(words, at + column_words);
-    sum += w.x * x[c.x].rgb + w.y * x[c.y].rgb + (w.z * x[c.z].rgb + w.w * x[c.w].rgb);
+  int end = int(group_start[local_row + 1u]) * group_texels;
+  for (int at = int(group_start[local_row]) * group_texels; at < end; at += group_texels) {
+    for (int t = 0; t < weight_texels; ++t) {
+      uvec4 texel = texelFetch(groups, at + column_texels + t);
+      for (int g = 0; g < texel_weights / 4; ++g) {
+        vec4 w = stored_weights(texel, g);
+        uvec4 c = columns_of(at, t * texel_weights / 4 + g);
+        for (int i = 0; i < 4; ++i) sum += w[i] * texelFetch(x, int(c[i])).rgb;
+      }
+    }
   }
   y[first_row + local_row] = vec4(sum * row_scale[first_row + local_row].rgb, 0.0f);
 }

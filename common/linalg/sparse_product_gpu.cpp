@@ -10,14 +10,14 @@
 namespace relight {
 namespace {
 
-constexpr uint64_t group = 4;  // entries
+constexpr uint64_t group = 16;  // entries
 
 // How one group lies in 32-bit words.
 struct GroupLayout {
   bool narrow;  // 16-bit columns
   WeightFormat format;
-  uint64_t column_words() const { return narrow ? 2 : 4; }
-  uint64_t words() const { return column_words() + static_cast<uint64_t>(bytes_of(format)); }
+  uint64_t column_words() const { return narrow ? group / 2 : group; }
+  uint64_t words() const { return column_words() + group / 4 * static_cast<uint64_t>(bytes_of(format)); }
 };
 
 // Writes the groups of one row.
@@ -48,15 +48,15 @@ SparseProductGpu::SparseProductGpu(const SparseRows& matrix, std::span<const glm
     fail("sparse product: {} scales for {} rows", scale.size(), matrix.rows());
   const GroupLayout layout{matrix.columns <= 65536, format};
   std::vector<glm::vec4> factor(scale.size());
-  const uint64_t max_groups = static_cast<uint64_t>(max_block_bytes) / (4 * layout.words());
+  const int64_t max_bytes = std::min(max_block_bytes, 16 * gpu::TexelView::max_texels());
+  const uint64_t max_groups = static_cast<uint64_t>(max_bytes) / (4 * layout.words());
   for (size_t first = 0; first < matrix.rows();) {
     std::vector<uint32_t> starts{0};
     size_t last = first;
     while (last < matrix.rows() && starts.back() + groups_of(matrix, last) <= max_groups)
       starts.push_back(starts.back() + static_cast<uint32_t>(groups_of(matrix, last++)));
     if (last == first)
-      fail("sparse product: row {} has more entries than a storage block of {} bytes holds", first,
-           max_block_bytes);
+      fail("sparse product: row {} has more entries than a buffer of {} bytes holds", first, max_bytes);
     std::vector<uint32_t> words(starts.back() * layout.words());
     tbb::parallel_for(first, last, [&](size_t row) {
       const float step = quantisation_step(matrix.row(row), format);
@@ -64,8 +64,10 @@ SparseProductGpu::SparseProductGpu(const SparseRows& matrix, std::span<const glm
       pack_row(matrix.row(row), step, layout, words.data() + starts[row - first] * layout.words());
     });
     stored_ += static_cast<int64_t>(starts.back() * group);
+    gpu::Buffer groups = gpu::Buffer::from(words);
+    gpu::TexelView view(groups, gpu::TexelView::Format::rgba32ui);
     slabs_.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(last - first),
-                      gpu::Buffer::from(starts), gpu::Buffer::from(words)});
+                      gpu::Buffer::from(starts), std::move(groups), std::move(view)});
     first = last;
   }
   scale_ = gpu::Buffer::from(factor);
@@ -75,12 +77,13 @@ void SparseProductGpu::multiply(const gpu::Buffer& x, const gpu::Buffer& y) cons
   check_product_shape(columns_, static_cast<size_t>(scale_.bytes() / 16), static_cast<size_t>(x.bytes() / 16),
                       static_cast<size_t>(y.bytes() / 16));
   program_.use();
-  x.bind_storage(2);
+  const gpu::TexelView light(x, gpu::TexelView::Format::rgba32f);
+  light.bind(2);
   scale_.bind_storage(3);
   y.bind_storage(4);
   for (const Slab& slab : slabs_) {
     slab.group_start.bind_storage(0);
-    slab.words.bind_storage(1);
+    slab.view.bind(1);
     program_.set("first_row", slab.first_row);
     program_.set("rows", slab.rows);
     program_.dispatch_items(slab.rows, 64);
@@ -92,7 +95,7 @@ ProductStatistics SparseProductGpu::statistics() const {
   s.non_zeros = non_zeros_;
   s.stored = stored_;
   s.bytes = scale_.bytes();
-  for (const Slab& slab : slabs_) s.bytes += slab.group_start.bytes() + slab.words.bytes();
+  for (const Slab& slab : slabs_) s.bytes += slab.group_start.bytes() + slab.groups.bytes();
   return s;
 }
 

@@ -1,9 +1,9 @@
 // y = scale * (M x) on the GPU, M by rows (Hasan 2006 section 5, "Comparison with row-based multiplication").
 // The matrix is split into slabs of rows because a shader-storage block may be limited to 128 MiB (llvmpipe).
 //
-// Storage: groups of four entries, 16-bit columns (32-bit where the matrix is wider than 65,536), weights of
-// the chosen format with one step a row. The last group of a row is filled up with weight 0 in the row's own
-// last column.
+// Storage: groups of sixteen entries in whole texels, 16-bit columns (32-bit where the matrix is wider than
+// 65,536), weights of the chosen format with one step a row. The last group of a row is filled up with weight
+// 0 in the row's own last column.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 #include "common/gpu/buffer.h"
 #include "common/gpu/program.h"
+#include "common/gpu/texel_view.h"
 #include "common/linalg/sparse_rows.h"
 #include "common/linalg/transfer_product.h"
 
@@ -32,7 +33,8 @@ class SparseProductGpu : public TransferProductGpu {
  private:
   struct Slab {
     uint32_t first_row, rows;
-    gpu::Buffer group_start, words;
+    gpu::Buffer group_start, groups;
+    gpu::TexelView view;  // of groups
   };
   gpu::Program program_;
   uint32_t columns_;

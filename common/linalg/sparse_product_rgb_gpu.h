@@ -6,6 +6,7 @@
 
 #include "common/gpu/buffer.h"
 #include "common/gpu/program.h"
+#include "common/gpu/texel_view.h"
 #include "common/linalg/sparse_rows_rgb.h"
 
 namespace relight {
@@ -22,6 +23,7 @@ class SparseProductRgbGpu {
   struct Slab {
     uint32_t first_row, rows;
     gpu::Buffer row_start, entries;
+    gpu::TexelView view;  // of entries
   };
   static Slab make_slab(const SparseRowsRgb& matrix, size_t first, size_t last);
 

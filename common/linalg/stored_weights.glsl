@@ -1,5 +1,5 @@
-// Four weights from a buffer of words, in steps of their row or block: WEIGHT_BITS 8 or 16 are signed integers, lowest
-// bits first, 32 are floats. A macro, because GLSL cannot pass a buffer.
+// Weights as they lie in texels of four words, in steps of their row or block: WEIGHT_BITS 8 or 16 are signed integers,
+// lowest bits first, 32 are floats.
 #ifndef RELIGHT_STORED_WEIGHTS
 #define RELIGHT_STORED_WEIGHTS
 
@@ -12,13 +12,17 @@ vec2 signed_halves(uint word) {
   return vec2(float(w << 16 >> 16), float(w >> 16));
 }
 
+const int texel_weights = 128 / WEIGHT_BITS;
+
+// Weights [4 g, 4 g + 4) of a texel.
+vec4 stored_weights(uvec4 texel, int g) {
 #if WEIGHT_BITS == 8
-#define STORED_WEIGHTS(words, at) signed_bytes(words[at])
+  return signed_bytes(texel[g]);
 #elif WEIGHT_BITS == 16
-#define STORED_WEIGHTS(words, at) vec4(signed_halves(words[at]), signed_halves(words[(at) + 1u]))
+  return vec4(signed_halves(texel[2 * g]), signed_halves(texel[2 * g + 1]));
 #else
-#define STORED_WEIGHTS(words, at) \
-  uintBitsToFloat(uvec4(words[at], words[(at) + 1u], words[(at) + 2u], words[(at) + 3u]))
+  return uintBitsToFloat(texel);
 #endif
+}
 
 #endif

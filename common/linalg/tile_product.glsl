@@ -5,8 +5,8 @@
 #include "common/linalg/stored_weights.glsl"
 layout(local_size_x = 8) in;
 layout(std430, binding = 0) readonly buffer TileStart { uint tile_start[]; };
-layout(std430, binding = 1) readonly buffer Words { uint words[]; };
-layout(std430, binding = 2) readonly buffer Vector { vec4 x[]; };
+layout(binding = 1) uniform usamplerBuffer blocks;
+layout(binding = 2) uniform samplerBuffer x;
 layout(std430, binding = 3) readonly buffer Scale { vec4 row_scale[]; };
 layout(std430, binding = 4) writeonly buffer Result { vec4 y[]; };
 uniform uint first_tile;
@@ -14,7 +14,7 @@ uniform uint tiles;
 uniform uint tiles_across;
 uniform uvec2 picture_size;
 
-const uint group_words = uint(WEIGHT_BITS) / 8u;
+const int line_texels = WEIGHT_BITS / 8;
 
 void main() {
   uint local_tile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
@@ -23,25 +23,27 @@ void main() {
   vec3 sum[16];
   for (int i = 0; i < 16; ++i) sum[i] = vec3(0.0f);
   uint skipped_blocks = 0u, skipped_weights = 0u;
-  uint end = tile_start[local_tile + 1u];
-  for (uint at = tile_start[local_tile]; at < end;) {
-    uint head = words[at];
-    uvec2 corner = uvec2(head, head >> 4) & uvec2(3u, 7u);
-    uvec2 size = (uvec2(head >> 2, head >> 7) & uvec2(3u, 7u)) + 1u;
-    vec3 light = x[head >> 10].rgb;
-    if (is_culled(light, uintBitsToFloat(words[at + 2u]))) {
+  float threshold = cull_threshold;
+  int end = int(tile_start[local_tile + 1u]);
+  for (int at = int(tile_start[local_tile]); at < end;) {
+    uvec4 head = texelFetch(blocks, at);
+    uint top = head.x & 7u, lines = (head.x >> 3 & 7u) + 1u;
+    vec3 light = texelFetch(x, int(head.x >> 8)).rgb;
+    if (is_culled(light, uintBitsToFloat(head.z), threshold)) {
       skipped_blocks += 1u;
-      skipped_weights += 4u * size.x * size.y;
-    } else if (line - corner.y < size.y) {  // wraps to a large number above the rectangle
-      light *= uintBitsToFloat(words[at + 1u]);
-      uint first = at + 3u + (line - corner.y) * size.x * group_words;
-      for (uint g = 0u; g < 4u; ++g) {  // unrolled: sum[] must stay in registers
-        if (g - corner.x >= size.x) continue;
-        vec4 w = STORED_WEIGHTS(words, first + (g - corner.x) * group_words);
-        for (uint i = 0u; i < 4u; ++i) sum[4u * g + i] += w[i] * light;
+      skipped_weights += 16u * lines;
+    } else if (line - top < lines) {  // wraps to a large number above the block
+      light *= uintBitsToFloat(head.y);
+      int first = at + 1 + int(line - top) * line_texels;
+      for (int t = 0; t < line_texels; ++t) {  // unrolled: sum[] must stay in registers
+        uvec4 texel = texelFetch(blocks, first + t);
+        for (int g = 0; g < texel_weights / 4; ++g) {
+          vec4 w = stored_weights(texel, g);
+          for (int i = 0; i < 4; ++i) sum[t * texel_weights + 4 * g + i] += w[i] * light;
+        }
       }
     }
-    at += 3u + size.x * size.y * group_words;
+    at += 1 + int(lines) * line_texels;
   }
   uint tile = first_tile + local_tile;
   uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * uvec2(16u, 8u) + uvec2(0u, line);

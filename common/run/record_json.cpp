@@ -139,6 +139,7 @@ RunRecord record_from(const Json& json) {
   json.at("view").get_to(record.view);
   json.at("lighting").get_to(record.lighting);
   json.at("method").get_to(record.method);
+  record.preset = json.value("preset", "");
   json.at("knobs").get_to(record.knobs);
   json.at("seed").get_to(record.seed);
   json.at("light_paths").get_to(record.light_paths);
@@ -174,6 +175,7 @@ std::string record_to_json(const RunRecord& record) {
                {"view", record.view},
                {"lighting", record.lighting},
                {"method", record.method},
+               {"preset", record.preset},
                {"knobs", record.knobs},
                {"seed", record.seed},
                {"light_paths", record.light_paths},

@@ -36,6 +36,7 @@ struct ReferenceCost {
 struct RunRecord {
   // What was run.
   std::string scene, view, lighting, method;
+  std::string preset;                        // where the knobs started from; older records: empty
   std::map<std::string, std::string> knobs;  // fully resolved
   uint64_t seed = 0;
   std::string light_paths;                 // LightPaths::to_string() of the method

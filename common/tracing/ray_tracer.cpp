@@ -185,18 +185,16 @@ uint32_t RayTracer::visible16(const Points16& p, const glm::vec3& q, uint32_t ac
   if (!finite(q)) refuse_ray("end", q, q);
   RayLog::Packet packet;
   packet.end = q, packet.active = active;
-  int not_finite[16];
+  uint32_t not_finite = 0;
   for (unsigned i = 0; i < 16; ++i) {
     const bool on = (active >> i) & 1u;  // an inactive entry may hold anything
     const float x = on ? p.x[i] : q.x, y = on ? p.y[i] : q.y, z = on ? p.z[i] : q.z;
     packet.origin.x[i] = x, packet.origin.y[i] = y, packet.origin.z[i] = z;
     // 0 x a difference is 0 only if point and difference are finite.
-    not_finite[i] = !((q.x - x) * 0.0f + (q.y - y) * 0.0f + (q.z - z) * 0.0f == 0.0f);
+    not_finite |= (q.x - x) * 0.0f + (q.y - y) * 0.0f + (q.z - z) * 0.0f == 0.0f ? 0u : 1u;
   }
-  int any = 0;
-  for (const int one : not_finite) any |= one;
-  for (unsigned i = 0; any && i < 16; ++i)
-    if (not_finite[i]) refuse_ray("end", p.get(i), q);
+  for (unsigned i = 0; not_finite && i < 16; ++i)
+    if (((active >> i) & 1u) && !finite(p.get(i) - q)) refuse_ray("end", p.get(i), q);
   if (log_) log_->add(packet);
   return active & ~embree_->occluded16(packet);
 }

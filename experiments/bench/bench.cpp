@@ -1,12 +1,10 @@
 #include "experiments/bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
+#include "experiments/bench/replay.h"
+#include "experiments/bench/timing.h"
 #include "experiments/options/parse.h"
 #include "experiments/session/session.h"
 #include "experiments/usage_error.h"
@@ -15,32 +13,6 @@
 namespace relight {
 
 namespace {
-
-// `cpu`: of all threads of the process; on a machine shared with others it drifts less than `wall`, but it
-// does not count threads that wait for the last one.
-struct Seconds {
-  double wall = 0.0, cpu = 0.0;
-};
-
-template <typename Function>
-Seconds seconds_of(Function function) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t cpu_start = std::clock();
-  function();
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-          static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC};
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-// The spread of ratios that single repeats would have given.
-std::string spread(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return fmt::format("{:.2f} .. {:.2f}", *low, *high);
-}
 
 PathTracerSettings settings_of(const BenchOptions& options) {
   const BounceRange bounces = parse_bounces(options.bounces, 0);
@@ -73,31 +45,16 @@ Measured measure(Session& session, const PathTracerSettings& settings, int repea
   render();
   session.tracer().set_log(nullptr);
 
-  std::vector<const RayLog::Thread*> threads;
-  for (const RayLog::Thread& thread : rays.threads) threads.push_back(&thread);
-  std::vector<RayCounts> counts(threads.size());
-  const auto replay = [&] {
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, threads.size(), 1),
-        [&](const auto& range) {
-          for (size_t i = range.begin(); i < range.end(); ++i)
-            counts[i] = session.tracer().replay(*threads[i]);
-        },
-        tbb::simple_partitioner());
-  };
+  Replay replay(session.tracer(), rays);
   Measured measured;
   for (int i = 0; i < repeats; ++i) {
-    const Seconds whole = seconds_of(render), raw = seconds_of(replay);
+    const Seconds whole = seconds_of(render), raw = seconds_of([&] { replay.run(); });
     measured.whole.push_back(whole.wall);
     measured.raw.push_back(raw.wall);
     measured.share.push_back(raw.wall / whole.wall);
     measured.cpu_share.push_back(raw.cpu / whole.cpu);
   }
-  for (const RayCounts& c : counts) {
-    measured.rays.nearest += c.nearest;
-    measured.rays.occlusion += c.occlusion;
-    measured.rays.in_packets += c.in_packets;
-  }
+  measured.rays = replay.counts();
   return measured;
 }
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "experiments/bench/bench.h"
+#include "experiments/bench/gather_bench.h"
 #include "experiments/bench/product_bench.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -36,11 +37,21 @@ void add_bench_command(CLI::App& app, Action& action) {
                    "With --products: a knob of direct_to_indirect; may be repeated")
       ->type_name("METHOD.KNOB=VALUE")
       ->allow_extra_args(false);
-  command->callback([&action, options, products, bench_products] {
-    action = [options, products, bench_products] {
+  const auto gather = std::make_shared<GatherBenchOptions>();
+  const auto bench_gather = std::make_shared<bool>(false);
+  command->add_flag("--gather", *bench_gather,
+                    "Instead: direct_to_indirect's final gather, beside Embree alone on the same packets");
+  command->add_option("--tiles", gather->tiles, "With --gather: tiles of 4x4 pixels whose rows are made")
+      ->capture_default_str();
+  command->callback([&action, options, products, bench_products, gather, bench_gather] {
+    action = [options, products, bench_products, gather, bench_gather] {
       products->session = options->session;
       products->repeats = options->repeats;
-      fmt::print("{}", *bench_products ? run_product_bench(*products) : run_bench(*options));
+      gather->session = options->session;
+      gather->repeats = options->repeats;
+      fmt::print("{}", *bench_gather     ? run_gather_bench(*gather)
+                       : *bench_products ? run_product_bench(*products)
+                                         : run_bench(*options));
       return 0;
     };
   });

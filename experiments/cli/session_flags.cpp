@@ -18,6 +18,10 @@ void add_session_flags(CLI::App& command, SessionOptions& options) {
                   "Lighting preset of the scene (see `relight scene info`), or a file")
       ->type_name("PRESET|FILE");
   command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+  add_machine_flags(command, options);
+}
+
+void add_machine_flags(CLI::App& command, SessionOptions& options) {
   command.add_option("--threads", options.threads, "Threads, 0 for all cores; results do not depend on it")
       ->capture_default_str();
   command.add_option("--gpu", options.gpu, "OpenGL context: osmesa, egl, or auto (EGL if it is a real GPU)")

@@ -13,6 +13,8 @@ class App;
 namespace relight::cli {
 
 void add_session_flags(CLI::App& command, SessionOptions& options);
+// Of them, those that say how a machine is used: threads, gpu, cache, quiet.
+void add_machine_flags(CLI::App& command, SessionOptions& options);
 // --preset and --set.
 void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::string>& settings);
 // --cache and --no-cache alone.

@@ -37,6 +37,7 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   record.view = fmt::format("{}x{}", view.width, view.height);
   record.lighting = session.lighting_name();
   record.method = method.method->name();
+  record.preset = method.preset;
   record.knobs = method.knobs.all();
   record.seed = plan.session.seed;
   record.light_paths = method.paths.to_string();

@@ -40,7 +40,7 @@ MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& set
     }
   }
   const LightPaths paths = method.light_paths(knobs);
-  return {&method, std::move(knobs), paths};
+  return {&method, preset, std::move(knobs), paths};
 }
 
 std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,

@@ -26,6 +26,7 @@ struct CompareOptions {
 
 struct MethodPlan {
   const Method* method;
+  std::string preset;  // that the knobs started from
   KnobValues knobs;
   LightPaths paths;  // what the method carries under these knobs
 };

@@ -11,7 +11,7 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 10;
+constexpr int precompute_version = 11;
 
 template <typename T>
 void append(std::vector<std::byte>& out, const std::vector<T>& values) {

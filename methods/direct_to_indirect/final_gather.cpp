@@ -27,7 +27,7 @@ struct Worker {
   TileGather gather;
   std::optional<LightRefit> refit;
   std::array<RefitRow, lanes> rows;
-  std::vector<Candidate> candidates;
+  LaneSelection selection;
   Totals totals;
 };
 
@@ -54,9 +54,11 @@ class Builder {
   void tile(Worker& worker, int t) {
     const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
     worker.gather.gather(samples, static_cast<uint64_t>(t));
+    select_largest(worker.gather.coefficients(), settings_.support_exponent, columns_, row_factors(samples),
+                   candidate_limit(worker), worker.selection);
     for (size_t i = 0; i < lanes; ++i) {
       worker.rows[i] = {};
-      if (samples[i] && samples[i]->valid) worker.rows[i] = select(worker, i, *samples[i]);
+      if (samples[i] && samples[i]->valid) worker.rows[i] = select(worker, i);
     }
     if (worker.refit) worker.refit->refit(worker.gather.coefficients(), worker.rows);
     TileRows& rows = tiles_[static_cast<size_t>(t)];
@@ -96,17 +98,27 @@ class Builder {
     std::array<uint32_t, lanes> end{};
   };
 
+  Lanes row_factors(const std::array<const SurfaceSample*, lanes>& samples) const {
+    Lanes factors;
+    for (size_t i = 0; i < lanes; ++i)
+      factors[i] = settings_.shared_budget && samples[i] ? row_factor(*samples[i]) : 1.0f;
+    return factors;
+  }
+
+  static float surplus(const Worker& worker, const FinalGatherSettings& settings) {
+    return worker.refit ? settings.refit_candidates : 1.0f;
+  }
+  // Of a row's coefficients no more are looked at.
+  size_t candidate_limit(const Worker& worker) const {
+    return static_cast<size_t>(
+        std::ceil(std::max(surplus(worker, settings_), 1.0f) * static_cast<float>(settings_.row_limit())));
+  }
+
   // What the row keeps, or with a refit: what it may keep, and how many of them.
-  RefitRow select(Worker& worker, size_t lane, const SurfaceSample& sample) const {
-    std::vector<Candidate>& candidates = worker.candidates;
-    const float factor = settings_.shared_budget ? row_factor(sample) : 1.0f;
-    collect_candidates(worker.gather.coefficients(), lane, settings_.support_exponent, columns_, factor,
-                       candidates);
-    double energy = 0.0;
-    for (const Candidate& c : candidates)
-      energy += static_cast<double>(c.entry.value) * static_cast<double>(c.entry.value);
-    worker.totals.before += static_cast<int64_t>(candidates.size());
-    worker.totals.energy_before += energy;
+  RefitRow select(Worker& worker, size_t lane) const {
+    std::vector<Candidate>& candidates = worker.selection.largest[lane];
+    worker.totals.before += worker.selection.count[lane];
+    worker.totals.energy_before += worker.selection.energy[lane];
 
     RefitRow row;
     row.target = candidates.size();
@@ -116,9 +128,10 @@ class Builder {
                                             [this](const Candidate& c) { return c.weight > threshold_; }));
     row.target = std::min(row.target, settings_.row_limit());
     if (settings_.energy_fraction < 1.0)
-      row.target = std::min(row.target, count_for_energy(candidates, settings_.energy_fraction));
-    const float surplus = worker.refit ? settings_.refit_candidates : 1.0f;
-    keep_largest(candidates, static_cast<size_t>(surplus * static_cast<float>(row.target)));
+      row.target = std::min(row.target, count_for_energy(candidates, settings_.energy_fraction *
+                                                                         worker.selection.energy[lane]));
+    keep_largest(candidates,
+                 static_cast<size_t>(surplus(worker, settings_) * static_cast<float>(row.target)));
     for (const Candidate& c : candidates) row.entries.push_back(c.entry);
     return row;
   }

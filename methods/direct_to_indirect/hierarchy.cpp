@@ -160,6 +160,10 @@ void order_gather_cloud(GatherCloud& cloud, float k, float scene_diagonal) {
 GatherHierarchy build_hierarchy(const GatherCloud& ordered_cloud) {
   const size_t n = ordered_cloud.samples.size();
   GatherHierarchy tree;
+  for (size_t i = 0; i < n; ++i) {
+    const SurfaceSample& s = ordered_cloud.samples[i];
+    tree.points.push_back({s.position, ordered_cloud.area[i], s.geometric_normal});
+  }
   for (size_t nodes = 1; nodes <= n; nodes *= 4) {
     std::vector<Cluster> level(nodes);
     const size_t size = n / nodes;

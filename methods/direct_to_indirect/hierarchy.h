@@ -20,10 +20,19 @@ struct Cluster {
   float cone_cosine;    // cosine of the cone's half-angle; -1 if the members' mean normal is zero
 };
 
+// What a link asks of a gather sample, in a quarter of the sample's bytes: links read random members.
+struct GatherPoint {
+  glm::vec3 position;
+  float area;        // represented
+  glm::vec3 normal;  // geometric
+  float padding = 0.0f;
+};
+
 struct GatherHierarchy {
   // levels[0] = {root}, levels[l][i] = the cluster of samples [i, i+1) x 4^(n-l); the last level has single
   // samples.
   std::vector<std::vector<Cluster>> levels;
+  std::vector<GatherPoint> points;  // in tree order
 };
 
 // Reorders the cloud into tree order. k: weight of positions in d(s,c) = k^2 |p_s-p_c|^2 + d^2 |n_s-n_c|^2

@@ -17,7 +17,7 @@ namespace {
 // Scratch and counts of one worker thread.
 struct Worker {
   TileGather gather;
-  std::vector<Candidate> candidates;
+  LaneSelection selection;
   int64_t before = 0;
 };
 
@@ -33,14 +33,17 @@ std::array<const SurfaceSample*, lanes> tile_samples(const GatherCloud& cloud, s
 Rows tile_rows(Worker& worker, const MultiBounceInput& in, const MultiBounceSettings& settings, size_t tile) {
   const auto samples = tile_samples(in.cloud, tile);
   worker.gather.gather(samples, tile);
+  Lanes no_factor;
+  no_factor.fill(1.0f);
+  const auto limit = static_cast<size_t>(settings.coefficients);
+  select_largest(worker.gather.coefficients(), settings.gather.support_exponent,
+                 static_cast<uint32_t>(in.cloud.samples.size()), no_factor, limit, worker.selection);
   Rows rows;
   for (size_t i = 0; i < lanes; ++i) {
     if (!samples[i]) continue;
-    collect_candidates(worker.gather.coefficients(), i, settings.gather.support_exponent,
-                       static_cast<uint32_t>(in.cloud.samples.size()), 1.0f, worker.candidates);
-    worker.before += static_cast<int64_t>(worker.candidates.size());
-    keep_largest(worker.candidates, static_cast<size_t>(settings.coefficients));
-    for (const Candidate& c : worker.candidates) rows[i].push_back(c.entry);
+    worker.before += worker.selection.count[i];
+    keep_largest(worker.selection.largest[i], limit);
+    for (const Candidate& c : worker.selection.largest[i]) rows[i].push_back(c.entry);
   }
   return rows;
 }

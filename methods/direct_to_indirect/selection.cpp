@@ -1,14 +1,15 @@
 #include "methods/direct_to_indirect/selection.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
+#include <ranges>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "common/image/luminance.h"
-#include "common/wavelet/haar.h"
 #include "methods/direct_to_indirect/view_tiles.h"
 
 namespace relight::direct_to_indirect {
@@ -19,39 +20,84 @@ bool heavier(const Candidate& a, const Candidate& b) {
   return a.weight != b.weight ? a.weight > b.weight : a.entry.column < b.entry.column;
 }
 
-double energy(const Candidate& c) {
-  return static_cast<double>(c.entry.value) * static_cast<double>(c.entry.value);
+// Leaves the `limit` heaviest, unordered.
+void cut(std::vector<Candidate>& candidates, size_t limit) {
+  if (candidates.size() <= limit) return;
+  std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
+                   candidates.end(), heavier);
+  candidates.resize(limit);
+}
+
+// support^exponent of the coefficients by level of the tree; that of the root is every sample.
+std::array<float, 17> weights_of_levels(uint32_t columns, float exponent) {
+  std::array<float, 17> weights{};
+  uint64_t support = columns;
+  for (float& w : weights) {
+    w = std::pow(static_cast<float>(support), exponent);
+    support = std::max<uint64_t>(support / 4, 1);
+  }
+  return weights;
+}
+
+// Of details: those of the root are 1 to 3, of the level below 4 to 15, ...
+size_t level_of(uint32_t index) {
+  return index == 0 ? 0 : static_cast<size_t>(std::bit_width(index) - 1) / 2;
 }
 
 }  // namespace
 
-size_t count_for_energy(std::vector<Candidate>& candidates, double fraction) {
+size_t count_for_energy(std::vector<Candidate>& candidates, double energy) {
   std::sort(candidates.begin(), candidates.end(), heavier);
-  double total = 0.0, held = 0.0;
-  for (const Candidate& c : candidates) total += energy(c);
+  double held = 0.0;
   size_t count = 0;
-  while (count < candidates.size() && held < fraction * total) held += energy(candidates[count++]);
+  while (count < candidates.size() && held < energy) {
+    const auto value = static_cast<double>(candidates[count++].entry.value);
+    held += value * value;
+  }
   return count;
 }
 
-void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, float support_exponent,
-                        uint32_t columns, float row_factor, std::vector<Candidate>& out) {
-  out.clear();
-  for (const LaneCoefficient& c : coefficients) {
-    const float value = c.value[lane];
-    if (value == 0.0f) continue;
-    const auto support = static_cast<float>(wavelet::support(c.index, columns));
-    const float area = support_exponent == 1.0f ? support : std::pow(support, support_exponent);
-    out.push_back({std::abs(value) * area * row_factor, {c.index, value}});
+// Most coefficients are lighter than `limit` others met before: they only cost a comparison, 16 lanes at a
+// time.
+void select_largest(const std::vector<LaneCoefficient>& coefficients, float support_exponent,
+                    uint32_t columns, const Lanes& row_factor, size_t limit, LaneSelection& out) {
+  out.count.fill(0), out.energy.fill(0.0);
+  for (std::vector<Candidate>& c : out.largest) c.clear();
+  const std::array<float, 17> level_weight = weights_of_levels(columns, support_exponent);
+  const size_t room = 2 * limit + 64;
+  Lanes least{};  // no lighter coefficient is among the largest
+  // Backwards: a depth-first walk leaves the coarse levels last, and they are the heaviest by area.
+  for (const LaneCoefficient& c : std::views::reverse(coefficients)) {
+    const float area = level_weight[level_of(c.index)];
+    Lanes weight;
+    std::array<uint32_t, lanes> heavy;
+    uint32_t any = 0;
+    for (size_t i = 0; i < lanes; ++i) {
+      const float v = c.value[i];
+      weight[i] = std::abs(v) * area * row_factor[i];
+      const uint32_t not_zero = v != 0.0f ? 1 : 0;
+      heavy[i] = weight[i] >= least[i] ? not_zero : 0;
+      any |= heavy[i];
+      out.count[i] += not_zero;
+      out.energy[i] += static_cast<double>(v) * static_cast<double>(v);
+    }
+    if (!any) continue;
+    for (size_t i = 0; i < lanes; ++i) {
+      if (!heavy[i]) continue;
+      std::vector<Candidate>& largest = out.largest[i];
+      largest.push_back({weight[i], {c.index, c.value[i]}});
+      if (largest.size() < room) continue;
+      cut(largest, limit);
+      least[i] = std::min_element(largest.begin(), largest.end(), [](const Candidate& a, const Candidate& b) {
+                   return a.weight < b.weight;
+                 })->weight;
+    }
   }
+  for (std::vector<Candidate>& largest : out.largest) cut(largest, limit);
 }
 
 void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
-  if (candidates.size() > limit) {
-    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(limit),
-                     candidates.end(), heavier);
-    candidates.resize(limit);
-  }
+  cut(candidates, limit);
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
 }
@@ -73,15 +119,16 @@ float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& bu
     const auto samples = tiles.samples(chosen[i]);
     TileGather& gather = gathers.local();
     gather.gather(samples, static_cast<uint64_t>(chosen[i]));
-    std::vector<Candidate> candidates;
+    Lanes factor{};
     for (size_t lane = 0; lane < lanes; ++lane) {
       if (!samples[lane] || !samples[lane]->valid) continue;
       ++rows[i];
-      collect_candidates(gather.coefficients(), lane, settings.support_exponent, columns,
-                         row_factor(*samples[lane]), candidates);
-      keep_largest(candidates, limit);
-      for (const Candidate& c : candidates) weights[i].push_back(c.weight);
+      factor[lane] = row_factor(*samples[lane]);
     }
+    LaneSelection selection;
+    select_largest(gather.coefficients(), settings.support_exponent, columns, factor, limit, selection);
+    for (const std::vector<Candidate>& largest : selection.largest)
+      for (const Candidate& c : largest) weights[i].push_back(c.weight);
   });
   std::vector<float> all;
   size_t valid_rows = 0;

@@ -1,6 +1,7 @@
 // Which wavelet coefficients a row keeps (Hasan 2006 section 4.3, "area-weighted wavelet culling").
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/linalg/sparse_rows.h"
@@ -13,16 +14,25 @@ struct Candidate {
   SparseEntry entry;
 };
 
-// The coefficients of one lane that are not zero, with weight |c| x support^support_exponent x row_factor.
-void collect_candidates(const std::vector<LaneCoefficient>& coefficients, size_t lane, float support_exponent,
-                        uint32_t columns, float row_factor, std::vector<Candidate>& out);
+// The coefficients of a tile that deserve most to be kept, by lane, and sums over all of the lane's
+// coefficients.
+struct LaneSelection {
+  std::array<std::vector<Candidate>, lanes> largest;  // in no particular order
+  std::array<int64_t, lanes> count{};                 // coefficients that are not zero
+  std::array<double, lanes> energy{};                 // sum of their squares
+};
+
+// Fills `out` with the `limit` coefficients of each lane that have the largest weight |c| x
+// support^support_exponent x row_factor and are not zero; ties go to the smaller column.
+void select_largest(const std::vector<LaneCoefficient>& coefficients, float support_exponent,
+                    uint32_t columns, const Lanes& row_factor, size_t limit, LaneSelection& out);
 
 // Keeps the `limit` candidates with the largest weight, ordered by column; ties go to the smaller column.
 void keep_largest(std::vector<Candidate>& candidates, size_t limit);
 
-// How many of the candidates with the largest weight hold `fraction` of the energy of all, the sum of their
-// squared values. Reorders.
-size_t count_for_energy(std::vector<Candidate>& candidates, double fraction);
+// How many of the candidates with the largest weight it takes to hold `energy`, a sum of squared values; all
+// of them if they do not. Reorders.
+size_t count_for_energy(std::vector<Candidate>& candidates, double energy);
 
 // Brightness of a view sample's row in the picture: the luminance of its albedo k_d.
 float row_factor(const SurfaceSample& sample);

@@ -1,6 +1,7 @@
 #include "methods/direct_to_indirect/tile_gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -48,7 +49,7 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
     px_[i] = s.position.x, py_[i] = s.position.y, pz_[i] = s.position.z;
     sx_[i] = s.shading_normal.x, sy_[i] = s.shading_normal.y, sz_[i] = s.shading_normal.z;
     gx_[i] = s.geometric_normal.x, gy_[i] = s.geometric_normal.y, gz_[i] = s.geometric_normal.z;
-    ray_start_[i] = tracer_.offset_point(s.position, s.geometric_normal);
+    ray_start_.set(static_cast<unsigned>(i), tracer_.offset_point(s.position, s.geometric_normal));
     if (!near_field_) continue;
     near_field_->elements(s, tile * lanes + i, near_[i], counts_.near_rays);
     counts_.near_elements += static_cast<int64_t>(near_[i].size());
@@ -73,16 +74,16 @@ Lanes TileGather::visit(size_t level, size_t index, uint32_t mask) {
   for (size_t c = 0; c < 4; ++c) child[c] = visit(level + 1, 4 * index + c, mask);
   Lanes scaling;
   std::array<Lanes, 3> details;
-  float largest = 0.0f;
+  uint32_t any_bits = 0;  // of the details, but for their signs
   for (size_t i = 0; i < lanes; ++i) {
     float d[3];
     scaling[i] = wavelet::haar_step(child[0][i], child[1][i], child[2][i], child[3][i], d);
     for (size_t t = 0; t < 3; ++t) {
       details[t][i] = d[t];
-      largest = std::max(largest, std::abs(d[t]));
+      any_bits |= std::bit_cast<uint32_t>(d[t]) & 0x7fffffffu;
     }
   }
-  if (largest > 0.0f) {
+  if (any_bits) {
     const auto nodes = static_cast<uint32_t>(tree_.levels[level].size());
     for (uint32_t t = 0; t < 3; ++t)
       coefficients_.push_back({(t + 1) * nodes + static_cast<uint32_t>(index), details[t]});
@@ -120,7 +121,7 @@ uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
   for (size_t i = 0; i < lanes; ++i) {
     const float s = support(sx_[i], sy_[i], sz_[i], px_[i], py_[i], pz_[i]);
     const float g = support(gx_[i], gy_[i], gz_[i], px_[i], py_[i], pz_[i]);
-    above[i] = s > 0.0f && g > 0.0f ? 1 : 0;
+    above[i] = (s > 0.0f) & (g > 0.0f) ? 1 : 0;
   }
   return mask & to_mask(above);
 }
@@ -143,7 +144,7 @@ uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) cons
     const float towards =
         (wx * cluster.cone_axis.x + wy * cluster.cone_axis.y + wz * cluster.cone_axis.z) / std::sqrt(d2);
     const bool away =
-        d2 > radius2 && cos_a * cos_b > sin_a * sin_b && towards < -(sin_a * cos_b + cos_a * sin_b);
+        (d2 > radius2) & (cos_a * cos_b > sin_a * sin_b) & (towards < -(sin_a * cos_b + cos_a * sin_b));
     maybe[i] = away ? 0 : 1;
   }
   return mask & to_mask(maybe);
@@ -152,16 +153,61 @@ uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) cons
 // The solid-angle heuristic of section 4.3, for the closest active view sample.
 bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const {
   const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), diagonal = cluster.hi - cluster.lo;
-  float closest2 = INFINITY;
-  for (size_t i = 0; i < lanes; ++i) {
-    if (!(mask >> i & 1u)) continue;
-    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
-    closest2 = std::min(closest2, wx * wx + wy * wy + wz * wz);
-  }
   // Without a threshold a cluster is never linked as a whole, not even one whose members coincide: their
   // areas may differ.
-  return settings_.link_threshold <= 0.0f ||
-         glm::dot(diagonal, diagonal) > settings_.link_threshold * closest2;
+  if (settings_.link_threshold <= 0.0f) return true;
+  const float size2 = glm::dot(diagonal, diagonal), threshold = settings_.link_threshold;
+  std::array<uint32_t, lanes> close;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
+    close[i] = size2 > threshold * (wx * wx + wy * wy + wz * wz) ? 1 : 0;
+  }
+  return (mask & to_mask(close)) != 0;
+}
+
+size_t TileGather::random_member(size_t level, size_t index, size_t size) const {
+  const uint64_t bits =
+      random_bits(settings_.seed, stream, tile_, (static_cast<uint64_t>(level) << 32) | index);
+  return static_cast<size_t>(bits % size);
+}
+
+// Elements of the matrix without visibility, and the lanes where they are positive. One loop without
+// branches, so that it becomes vector code; lanes of no view sample may hold anything.
+uint32_t TileGather::elements(const GatherPoint& g, Lanes& value) const {
+  const float scaled_area = g.area * std::numbers::inv_pi_v<float>;
+  const float disc_area = settings_.disc_elements ? scaled_area : 0.0f;
+  const float clamp = settings_.disc_elements ? INFINITY : settings_.form_factor_clamp;
+  const glm::vec3 q = g.position, nq = g.normal;
+  std::array<uint32_t, lanes> positive;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float wx = q.x - px_[i], wy = q.y - py_[i], wz = q.z - pz_[i];
+    const float r2 = wx * wx + wy * wy + wz * wz;
+    const float cos_view = sx_[i] * wx + sy_[i] * wy + sz_[i] * wz;  // times r
+    const float above = gx_[i] * wx + gy_[i] * wy + gz_[i] * wz;
+    const float cos_gather = -(nq.x * wx + nq.y * wy + nq.z * wz);  // times r
+    // Dividing twice keeps tiny scenes from underflowing r^4. pi r^2 + A instead of pi r^2 turns a point's
+    // form factor into a disc's.
+    const float element = (cos_view / r2) * (cos_gather / (r2 + disc_area)) * scaled_area;
+    const float bounded = std::min(element, clamp);
+    const bool faces =
+        (cos_view > 0.0f) & (above > 0.0f) & (cos_gather > 0.0f) & (r2 > 0.0f) & (bounded > 0.0f);
+    value[i] = faces ? bounded : 0.0f;
+    positive[i] = faces ? 1 : 0;
+  }
+  return to_mask(positive);
+}
+
+// factor x F / w of one gather sample for each lane, 0 where it is not seen.
+Lanes TileGather::seen_elements(size_t member, float factor, uint32_t mask) {
+  const GatherPoint& g = tree_.points[member];
+  Lanes value;
+  mask &= elements(g, value);
+  counts_.rays += std::popcount(mask);
+  const uint32_t visible =
+      mask ? tracer_.visible16(ray_start_, tracer_.offset_point(g.position, g.normal), mask) : 0;
+  if (!column_scale_.empty()) factor /= column_scale_[member];
+  for (size_t i = 0; i < lanes; ++i) value[i] = (visible >> i & 1u) ? value[i] * factor : 0.0f;
+  return value;
 }
 
 // The scaling coefficient of `size` equal values F is F sqrt(size), and the details inside the cluster are
@@ -174,48 +220,15 @@ Lanes TileGather::link(size_t level, size_t index, uint32_t mask) {
     counts_.links += std::popcount(mask);
     Lanes sum{};
     for (size_t member = index * size; member < (index + 1) * size; ++member) {
-      const Lanes value = elements(member, 1.0f / root, mask);
+      const Lanes value = seen_elements(member, 1.0f / root, mask);
       for (size_t i = 0; i < lanes; ++i) sum[i] += value[i];
     }
     return sum;
   }
-  const uint64_t random =
-      random_bits(settings_.seed, stream, tile_, (static_cast<uint64_t>(level) << 32) | index);
   const int64_t rays = counts_.rays;
   const Lanes value =
-      elements(index * size + (size > 1 ? static_cast<size_t>(random % size) : 0), root, mask);
+      seen_elements(index * size + (size > 1 ? random_member(level, index, size) : 0), root, mask);
   counts_.links += counts_.rays - rays;
-  return value;
-}
-
-// factor x F / w of one gather sample for each lane, 0 where it is not seen.
-Lanes TileGather::elements(size_t member, float factor, uint32_t mask) {
-  const SurfaceSample& g = cloud_.samples[member];
-  const float scaled_area = cloud_.area[member] * std::numbers::inv_pi_v<float>;
-  const glm::vec3 q = g.position, nq = g.geometric_normal;
-
-  Lanes value;
-  std::array<uint32_t, lanes> positive;
-  for (size_t i = 0; i < lanes; ++i) {
-    const float wx = q.x - px_[i], wy = q.y - py_[i], wz = q.z - pz_[i];
-    const float r2 = wx * wx + wy * wy + wz * wz;
-    const float cos_view = sx_[i] * wx + sy_[i] * wy + sz_[i] * wz;  // times r
-    const float above = gx_[i] * wx + gy_[i] * wy + gz_[i] * wz;
-    const float cos_gather = -(nq.x * wx + nq.y * wy + nq.z * wz);  // times r
-    const bool faces = cos_view > 0.0f && above > 0.0f && cos_gather > 0.0f && r2 > 0.0f;
-    // Dividing twice by r2 keeps tiny scenes from underflowing r^4.
-    const float far = (cos_view / r2) * (cos_gather / r2) * scaled_area;
-    // pi r^2 / (pi r^2 + A) turns a point's form factor into a disc's
-    const float bounded = settings_.disc_elements ? far * (r2 / (r2 + scaled_area))
-                                                  : std::min(far, settings_.form_factor_clamp);
-    value[i] = faces ? bounded : 0.0f;
-    positive[i] = value[i] > 0.0f ? 1 : 0;
-  }
-  mask &= to_mask(positive);
-  counts_.rays += std::popcount(mask);
-  const uint32_t visible = mask ? tracer_.visible16(ray_start_.data(), tracer_.offset_point(q, nq), mask) : 0;
-  if (!column_scale_.empty()) factor /= column_scale_[member];
-  for (size_t i = 0; i < lanes; ++i) value[i] = (visible >> i & 1u) ? value[i] * factor : 0.0f;
   return value;
 }
 

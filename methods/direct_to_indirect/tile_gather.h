@@ -51,11 +51,13 @@ class TileGather {
  private:
   Lanes visit(size_t level, size_t index, uint32_t mask);
   Lanes link(size_t level, size_t index, uint32_t mask);
-  Lanes elements(size_t member, float factor, uint32_t mask);
+  Lanes seen_elements(size_t member, float factor, uint32_t mask);
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
   bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
   uint32_t with_near_members(size_t level, size_t index, uint32_t mask) const;
+  size_t random_member(size_t level, size_t index, size_t size) const;
+  uint32_t elements(const GatherPoint& g, Lanes& value) const;
   Lanes leaf(size_t level, size_t index, uint32_t mask);
 
   const RayTracer& tracer_;
@@ -67,7 +69,7 @@ class TileGather {
   uint64_t tile_ = 0;
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
-  std::array<glm::vec3, lanes> ray_start_{};
+  Points16 ray_start_;
   std::array<std::vector<NearElement>, lanes> near_;  // by view sample
   std::vector<LaneCoefficient> coefficients_;
   GatherCounts counts_;

@@ -82,22 +82,5 @@ TEST(PixelsAlone, OnTheGpuDifferByFinerStepsOfQuantisationOnly) {
   }
 }
 
-// Culling compares each block with the light of all rows, of which a subset has few. Red if their share is
-// not taken into account: the threshold is then several times too low, and culling looks better than it is
-// (tried).
-TEST(PixelsAlone, AreCulledByTheLightOfTheWholePicture) {
-  TransferBench bench(load_scene("cornell"), width, height);
-  ArtefactCache clouds = ArtefactCache::in_memory();
-  bench.parts = &clouds;
-  const glm::ivec2 block(16, 8);
-  const Both usual = relit(bench, {{"weights", "float32"}}, block),
-             culled = relit(bench, {{"weights", "float32"}, {"cull_epsilon", "0.01"}}, block);
-  const double whole = relative_difference(culled.whole, usual.whole),
-               alone = relative_difference(culled.alone, usual.whole);
-  printf("CULL %g %g\n", whole, alone);
-  EXPECT_GT(whole, 1e-3);
-  EXPECT_NEAR(alone, whole, 0.5 * whole);
-}
-
 }  // namespace
 }  // namespace relight::direct_to_indirect

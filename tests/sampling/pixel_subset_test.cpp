@@ -40,7 +40,8 @@ TEST(PixelSubset, IsTheWholeViewIfThatManyPixelsAreAskedFor) {
 }
 
 // A quarter of the pixels: each quarter of the view has its share within a fifth. Red if x and y of the
-// sequence are mixed up or the points are not spread (tried: x taken for both).
+// sequence are mixed up or the points are not spread (tried: x taken
+// for both, which never ends).
 TEST(PixelSubset, IsSpreadOverTheView) {
   const PixelSubset subset = choose_pixels(128, 64, 2048, glm::ivec2(4), 5);
   int count[4] = {};

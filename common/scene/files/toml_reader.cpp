@@ -121,6 +121,31 @@ std::string TomlTable::text(const std::string& key, const std::string& fallback,
   return value;
 }
 
+std::vector<std::string> TomlTable::values(const std::string& key) const {
+  const toml::node* node = state_->find(key);
+  if (!node) return {};
+  std::vector<std::string> texts;
+  const auto add = [&](const toml::node& value) {
+    if (value.is_string())
+      texts.push_back(value.value_or(std::string()));
+    else if (value.is_integer())
+      texts.push_back(fmt::format("{}", value.value_or(int64_t{0})));
+    else if (value.is_floating_point())
+      texts.push_back(fmt::format("{}", value.value_or(0.0)));
+    else if (value.is_boolean())
+      texts.push_back(value.value_or(false) ? "true" : "false");
+    else
+      fail("{}: {} is not a string, a number or a boolean", state_->at(*node, key), show(value));
+  };
+  if (const toml::array* array = node->as_array()) {
+    if (array->empty()) fail("{}: an empty list; expected at least one value", state_->at(*node, key));
+    for (const toml::node& value : *array) add(value);
+  } else {
+    add(*node);
+  }
+  return texts;
+}
+
 std::filesystem::path TomlTable::file(const std::string& key) const {
   if (!has(key)) return {};
   const std::filesystem::path name = replace_variables(text(key, ""), where(key));

@@ -31,6 +31,8 @@ class TomlTable {
   // choices: valid values; empty = any.
   std::string text(const std::string& key, const std::string& fallback,
                    const std::vector<std::string>& choices = {}) const;
+  // One or several strings, numbers or booleans, as text; empty if missing. A list must not be empty.
+  std::vector<std::string> values(const std::string& key) const;
   // A file name: ${NAME} and ${NAME:-default} are replaced by the environment variable; relative names are
   // relative to the TOML file's folder. Empty if missing.
   std::filesystem::path file(const std::string& key) const;

@@ -1,0 +1,56 @@
+#include "experiments/run/experiment.h"
+
+#include "common/run/error.h"
+#include "common/scene/files/toml_reader.h"
+
+namespace relight {
+namespace {
+
+// A scene file is relative to the experiment's folder; anything else is the name of a built-in scene.
+std::string scene_name(const std::string& text, const std::filesystem::path& folder) {
+  const std::string name = replace_variables(text, "scenes");
+  const std::filesystem::path beside = (folder / name).lexically_normal();
+  return name.find('/') != std::string::npos && !std::filesystem::path(name).is_absolute() ? beside.string()
+                                                                                           : name;
+}
+
+std::vector<std::string> values_or(const TomlTable& table, const std::string& key, const char* fallback) {
+  std::vector<std::string> values = table.values(key);
+  if (values.empty()) values.push_back(fallback);
+  return values;
+}
+
+RunGroup read_group(const TomlTable& table, const std::filesystem::path& folder) {
+  for (const char* key : {"scenes", "lights", "method"}) table.require(key);
+  RunGroup group;
+  for (const std::string& scene : table.values("scenes")) group.scenes.push_back(scene_name(scene, folder));
+  group.lights = table.values("lights");
+  group.method = table.text("method", "");
+  group.presets = values_or(table, "presets", "paper");
+  group.seeds = values_or(table, "seeds", "1");
+  group.optional = table.boolean("optional", false);
+  const TomlTable knobs = table.table("knobs");
+  for (const std::string& knob : knobs.keys()) group.knobs[knob] = knobs.values(knob);
+  table.refuse_unknown_keys();
+  return group;
+}
+
+}  // namespace
+
+Experiment read_experiment(const std::filesystem::path& file) {
+  const TomlTable table = TomlTable::parse_file(file);
+  Experiment experiment;
+  experiment.name = file.stem().string();
+  table.require("title");
+  experiment.title = table.text("title", "");
+  experiment.view = table.text("view", "640x480");
+  experiment.reference_samples = static_cast<int>(table.number("reference_samples", 128, {8, 16777216}));
+  experiment.repeats = static_cast<int>(table.number("repeats", 0, {0, 10000}));
+  for (const TomlTable& group : table.tables("runs"))
+    experiment.groups.push_back(read_group(group, file.parent_path()));
+  if (experiment.groups.empty()) fail("{}: no runs; write at least one [[runs]] table", file.string());
+  table.refuse_unknown_keys();
+  return experiment;
+}
+
+}  // namespace relight

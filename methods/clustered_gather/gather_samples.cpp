@@ -1,0 +1,131 @@
+#include "methods/clustered_gather/gather_samples.h"
+
+#include <cmath>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "common/brdf/brdf.h"
+#include "common/run/error.h"
+#include "common/sampling/random.h"
+#include "methods/clustered_gather/representative.h"
+
+namespace relight::clustered_gather {
+namespace {
+
+constexpr uint64_t stream = 0x67617468657231ull;
+
+struct Worker {
+  std::vector<SurfaceSample> points;
+  std::vector<glm::vec3> weights;
+  std::vector<Point6> points6;
+  int64_t rays = 0, hits = 0;
+};
+
+struct Direction {
+  glm::vec3 wi;
+  glm::vec3 weight;  // of the radiance from there, times the number of directions
+};
+
+Direction diffuse_direction(const SurfaceSample& from, const glm::vec2& u) {
+  return {sample_cosine(from.shading_normal, u), glm::vec3(1.0f)};
+}
+
+// Weight 0 where nothing is reflected from that direction.
+Direction glossy_direction(const SurfaceSample& from, const glm::vec3& eye, float u_lobe,
+                           const glm::vec2& u) {
+  const shader::BrdfParams brdf = from.brdf();
+  const glm::vec3 n = from.shading_normal, wo = glm::normalize(eye - from.position);
+  const glm::vec3 wi = glm::normalize(shader::brdf_glossy_sample(brdf, n, wo, u_lobe, u));
+  const float cosine = glm::dot(n, wi), density = shader::brdf_glossy_pdf(brdf, n, wo, wi);
+  if (!(cosine > 0.0f) || !(density > 0.0f)) return {wi, glm::vec3(0.0f)};
+  return {wi, shader::brdf_glossy(brdf, n, wo, wi) * (cosine / density)};
+}
+
+// The points that directions from the view cluster hit. Points that reflect nothing diffusely are kept: they
+// are part of what the clusters must cover, and removing them would be a clustering of its own.
+void trace(const RayTracer& tracer, const SurfaceSample& from, uint64_t scramble,
+           const GatherSettings& settings, Worker& worker) {
+  worker.points.clear(), worker.weights.clear();
+  const glm::vec3 origin = tracer.offset_point(from.position, from.geometric_normal);
+  const float share = 1.0f / static_cast<float>(settings.directions);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(settings.directions); ++i) {
+    const glm::vec2 u = sobol_2d(i, scramble);
+    const Direction d = settings.part == Part::diffuse
+                            ? diffuse_direction(from, u)
+                            : glossy_direction(from, settings.eye, random_float(scramble, stream, i, 1), u);
+    if (d.weight == glm::vec3(0.0f) || !(glm::dot(d.wi, from.geometric_normal) > 0.0f)) continue;
+    ++worker.rays;
+    const Hit hit = tracer.intersect(origin, d.wi);
+    if (!hit.valid) continue;
+    worker.points.push_back(tracer.surface(hit, d.wi));
+    worker.weights.push_back(d.weight * share);
+  }
+  worker.hits += static_cast<int64_t>(worker.points.size());
+}
+
+// One gather sample for each cluster of the points, diffuse albedo = sum of weight x albedo of the members.
+std::vector<SurfaceSample> reduce(Worker& worker, const Metric6& metric, const GatherSettings& settings,
+                                  uint64_t seed) {
+  const size_t limit = settings.clusters == 0 ? worker.points.size() : settings.clusters;
+  if (worker.points.size() <= limit) {
+    std::vector<SurfaceSample> all = worker.points;
+    for (size_t i = 0; i < all.size(); ++i) all[i].diffuse *= worker.weights[i];
+    return all;
+  }
+  worker.points6.clear();
+  for (const SurfaceSample& s : worker.points) worker.points6.push_back(metric(s.position, s.shading_normal));
+  ClusteringSettings clustering_settings;
+  clustering_settings.clusters = limit;
+  clustering_settings.start = settings.start;
+  clustering_settings.iterations = settings.iterations;
+  clustering_settings.seed = seed;
+  const Clustering clustering = cluster_points(worker.points6, clustering_settings);
+  const Members members = members_of(clustering.cluster_of, clustering.centres.size());
+  std::vector<SurfaceSample> reduced;
+  for (size_t k = 0; k < clustering.centres.size(); ++k) {
+    reduced.push_back(representative(worker.points, members.of(k)));
+    glm::dvec3 albedo(0.0);
+    for (const uint32_t i : members.of(k))
+      albedo += glm::dvec3(worker.points[i].diffuse) * glm::dvec3(worker.weights[i]);
+    reduced.back().diffuse = glm::vec3(albedo);
+  }
+  return reduced;
+}
+
+}  // namespace
+
+void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
+                        const GatherSettings& settings, Progress& progress, StageLog& log,
+                        GatherSamples& out) {
+  std::vector<std::vector<SurfaceSample>> reduced(view.samples.size());
+  tbb::enumerable_thread_specific<Worker> workers;
+  const bool glossy = settings.part == Part::glossy;
+  progress.start(glossy ? "glossy gather samples" : "gather samples", static_cast<int>(view.samples.size()));
+  tbb::parallel_for(size_t{0}, view.samples.size(), [&](size_t k) {
+    Worker& worker = workers.local();
+    const uint64_t scramble = random_bits(settings.seed, stream, k, glossy ? 1 : 0);
+    trace(tracer, view.samples[k], scramble, settings, worker);
+    reduced[k] = reduce(worker, metric, settings, scramble);
+    progress.advance();
+  });
+  progress.finish();
+  const size_t before = out.samples.size();
+  size_t total = before;
+  for (const auto& r : reduced) total += r.size();
+  if (total >= (size_t{1} << 32)) fail("clustered_gather: {} gather samples; at most 2^32 - 1", total);
+  out.samples.reserve(total);
+  for (auto& r : reduced) {
+    out.samples.insert(out.samples.end(), r.begin(), r.end());
+    out.first.push_back(static_cast<uint32_t>(out.samples.size()));
+    r = {};
+  }
+  int64_t rays = 0, hits = 0;
+  for (const Worker& w : workers) rays += w.rays, hits += w.hits;
+  const std::string prefix = glossy ? "glossy_" : "";
+  log.count(prefix + "gather_rays", rays);
+  log.count(prefix + "gather_points", hits);
+  log.count(prefix + "gather_samples", static_cast<int64_t>(total - before));
+}
+
+}  // namespace relight::clustered_gather

@@ -1,0 +1,36 @@
+#include "methods/clustered_gather/knobs.h"
+
+namespace relight::clustered_gather {
+
+KnobTable knob_table() {
+  using enum KnobType;
+  using enum KnobPhase;
+  // clang-format off
+  return {
+      {"directions", integer, precompute, "2000", 1, 1048576, {}, "gather_samples",
+       "Quasi-Monte Carlo directions of a view cluster (paper: 2000)."},
+      {"gather_clusters", integer, precompute, "120", 0, 1048576, {}, "direct_shading",
+       "Clusters that the gather samples of a view cluster are reduced to (paper: 120); 0 keeps all."},
+      {"view_clusters", integer, precompute, "40000", 0, 16777216, {}, "direct_shading",
+       "Clusters of view samples, at which indirect light is computed, diffuse and glossy ones together (paper: 40,000); 0: every pixel is one."},
+      {"neighbours", integer, precompute, "10", 1, 64, {}, "links",
+       "View clusters that a pixel interpolates (paper: 10)."},
+      {"glossy", choice, precompute, "auto", 0, 0, {"auto", "off"}, "direct_shading",
+       "View clusters of their own for glossy reflection, if the view has any (paper), or none."},
+      {"normal_weight", real, precompute, "1", 0, 100, {}, "clustering",
+       "Opposite normals count as the scene's diagonal times this (paper: about 1)."},
+      {"clustering", choice, precompute, "two_phase", 0, 0, {"two_phase", "kmeans"}, "clustering",
+       "k-means from repeated splits of the worst cluster (paper), or from random points."},
+      {"iterations", integer, precompute, "5", 0, 1000, {}, "clustering",
+       "Iterations of k-means at most (the paper does not say)."},
+      {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "indirect_sum",
+       "Everything in GLSL; all on the CPU with traced shadows; or sums in double precision on the CPU after shading on the GPU."},
+      {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "shadow_maps",
+       "Shadow maps or traced shadow rays; auto: maps on the GPU (paper), rays on the CPU."},
+      {"shadow_map_size", integer, relight, "2048", 64, 16384, {}, "shadow_maps",
+       "Texels a side of a spot's shadow map and of each face of an omni's."},
+  };
+  // clang-format on
+}
+
+}  // namespace relight::clustered_gather

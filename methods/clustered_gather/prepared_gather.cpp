@@ -1,0 +1,181 @@
+#include "methods/clustered_gather/prepared_gather.h"
+
+#include <bit>
+
+#include "common/gpu/context.h"
+#include "common/gpu/program.h"
+#include "common/gpu/texel_view.h"
+#include "common/gpu/timer.h"
+#include "common/shading/cached_direct_light.h"
+#include "common/shading/reconstruction.h"
+#include "methods/clustered_gather/sums_cpu.h"
+
+namespace relight::clustered_gather {
+namespace {
+
+// Direct light on the gather samples and on the view's sub-samples, a vec4 each.
+struct DirectLight {
+  gpu::Buffer gather, view;
+
+  int64_t bytes() const { return gather.bytes() + view.bytes(); }
+};
+
+// What is lit, and by what; see CachedDirectLight.
+struct LitSamples {
+  GpuSamples gather, view;
+  DirectLighting lighting;
+
+  LitSamples(const PrepareContext& context, const GatherSamples& samples)
+      : gather(samples.samples, context.buffer.view.camera.eye),
+        view(context.buffer.direct, context.buffer.view.camera.eye),
+        lighting(context.gpu, context.scene, context.tracer,
+                 {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
+                  static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
+
+  DirectLight make() const {
+    return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
+            gpu::Buffer(static_cast<int64_t>(view.size()) * 16)};
+  }
+  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
+    lighting.shade(lights, {{&gather, Lobes::diffuse, &out.gather}, {&view, Lobes::all, &out.view}}, onto,
+                   log);
+  }
+  void copy(const DirectLight& from, DirectLight& to) const {
+    to.gather.copy_from(from.gather);
+    to.view.copy_from(from.view);
+  }
+};
+
+// The links of one part on the GPU, two a texel, the last of an odd number with weight 0.
+class GpuLinks {
+ public:
+  GpuLinks(const Links& links, Part part)
+      : links_(pack(links)),
+        pixel_(gpu::Buffer::from(links.pixel)),
+        program_(gpu::Program::compute("methods/clustered_gather/links.glsl",
+                                       {part == Part::diffuse ? "DIFFUSE 1" : "DIFFUSE 0"})),
+        pixels_(links.pixel.size()),
+        texels_per_pixel_((links.per_pixel + 1) / 2) {}
+
+  void interpolate(const gpu::Buffer& gathered, const gpu::Buffer& albedo,
+                   const gpu::Buffer& indirect) const {
+    using enum gpu::TexelView::Format;
+    if (pixels_ == 0) return;
+    const gpu::TexelView links(links_, rgba32ui), from(gathered, rgba32f), factor(albedo, rgba32f);
+    program_.use();
+    links.bind(0), from.bind(1), factor.bind(2);
+    indirect.bind_storage(3);
+    pixel_.bind_storage(4);
+    program_.set("pixels", static_cast<uint32_t>(pixels_));
+    program_.set("texels_per_pixel", texels_per_pixel_);
+    program_.dispatch_items(static_cast<int64_t>(pixels_), 64);
+  }
+  int64_t bytes() const { return links_.bytes() + pixel_.bytes(); }
+
+ private:
+  static gpu::Buffer pack(const Links& links) {
+    const size_t n = links.per_pixel, texels = (n + 1) / 2;
+    std::vector<uint32_t> words(links.pixel.size() * texels * 4, 0u);
+    for (size_t i = 0; i < links.cluster.size(); ++i) {
+      const size_t at = i / n * texels * 4 + i % n * 2;
+      words[at] = links.cluster[i];
+      words[at + 1] = std::bit_cast<uint32_t>(links.weight[i]);
+    }
+    return gpu::Buffer::from(words);
+  }
+
+  gpu::Buffer links_, pixel_;
+  gpu::Program program_;
+  size_t pixels_;
+  uint32_t texels_per_pixel_;
+};
+
+std::vector<glm::vec4> albedo(const DeepFrameBuffer& buffer) {
+  std::vector<glm::vec4> kd;
+  for (const SurfaceSample& s : buffer.indirect) kd.emplace_back(s.diffuse, 0.0f);
+  return kd;
+}
+
+class PreparedGather : public Prepared {
+ public:
+  PreparedGather(const PrepareContext& context, Artefact artefact)
+      : oracle_(context.knobs.choice("device") == "oracle"),
+        samples_(context, artefact.gather),
+        direct_(samples_.make()),
+        first_(gpu::Buffer::from(artefact.gather.first)),
+        albedo_(gpu::Buffer::from(albedo(context.buffer))),
+        gathered_(static_cast<int64_t>(std::max<size_t>(artefact.gather.first.size() - 1, 1)) * 16),
+        indirect_(static_cast<int64_t>(context.buffer.indirect.size()) * 16),
+        sum_(gpu::Program::compute("methods/clustered_gather/indirect_sum.glsl")),
+        reconstruction_(context.buffer),
+        clusters_(artefact.gather.first.size() - 1) {
+    links_.emplace_back(artefact.diffuse, Part::diffuse);
+    if (!artefact.glossy.pixel.empty()) links_.emplace_back(artefact.glossy, Part::glossy);
+    int64_t link_bytes = first_.bytes();
+    for (const GpuLinks& l : links_) link_bytes += l.bytes();
+    if (oracle_) host_ = {std::move(artefact), context.buffer};
+    context.log.bytes("gather_samples", samples_.gather.bytes());
+    context.log.bytes("view_samples", samples_.view.bytes() + albedo_.bytes());
+    context.log.bytes("links", link_bytes);
+    context.log.bytes("lighting", samples_.lighting.bytes());
+    context.log.bytes("partial_results", direct_.bytes() + gathered_.bytes() + indirect_.bytes());
+  }
+
+  Relit relight(const LightingState& lighting, StageLog& log) override {
+    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    if (oracle_)
+      sum_in_double(direct.gather, log);
+    else
+      sum_on_gpu(direct.gather, log);
+    Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
+    Relit out{std::move(images.direct), std::move(images.indirect), {}};
+    out.total = out.direct;
+    for (size_t i = 0; i < out.total.pixels.size(); ++i) out.total.pixels[i] += out.indirect.pixels[i];
+    return out;
+  }
+  void forget() override { direct_.forget(); }
+
+ private:
+  void sum_on_gpu(const gpu::Buffer& radiance, StageLog& log) {
+    {
+      StageTimer timer(log, "indirect_sum");
+      const gpu::TexelView view(radiance, gpu::TexelView::Format::rgba32f);
+      sum_.use();
+      first_.bind_storage(0);
+      view.bind(1);
+      gathered_.bind_storage(2);
+      sum_.set("clusters", static_cast<uint32_t>(clusters_));
+      sum_.dispatch_items(static_cast<int64_t>(clusters_), 64);
+      gpu::finish();
+    }
+    StageTimer timer(log, "links");
+    indirect_.clear();
+    for (const GpuLinks& l : links_) l.interpolate(gathered_, albedo_, indirect_);
+    gpu::finish();
+  }
+
+  // The double-precision twin: the oracle of the GPU path.
+  void sum_in_double(const gpu::Buffer& radiance, StageLog& log) {
+    StageTimer timer(log, "indirect_sum");
+    const std::vector<glm::vec4> v = host_.indirect<double>(radiance.download<glm::vec4>());
+    indirect_.upload(0, indirect_.bytes(), v.data());
+  }
+
+  bool oracle_;
+  SumsCpu host_;  // of the oracle only
+  LitSamples samples_;
+  CachedDirectLight<DirectLight> direct_;
+  gpu::Buffer first_, albedo_, gathered_, indirect_;
+  gpu::Program sum_;
+  std::vector<GpuLinks> links_;
+  Reconstruction reconstruction_;
+  size_t clusters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Prepared> make_prepared_gather(const PrepareContext& context, Artefact artefact) {
+  return std::make_unique<PreparedGather>(context, std::move(artefact));
+}
+
+}  // namespace relight::clustered_gather
