@@ -8,8 +8,9 @@ namespace relight {
 
 float row_response(const glm::vec3& scale) { return std::sqrt(glm::dot(scale, scale) / 3.0f); }
 
-BlockCulling::BlockCulling(const SparseRows& matrix, std::span<const glm::vec3> scale, float epsilon)
-    : epsilon_(epsilon),
+BlockCulling::BlockCulling(const SparseRows& matrix, std::span<const glm::vec3> scale,
+                           const ProductSettings& settings)
+    : epsilon_(settings.cull_epsilon),
       columns_(matrix.columns),
       program_(gpu::Program::compute("common/linalg/cull_threshold.glsl")),
       threshold_(4),
@@ -19,7 +20,7 @@ BlockCulling::BlockCulling(const SparseRows& matrix, std::span<const glm::vec3> 
     const auto response = static_cast<double>(row_response(scale[row]));
     for (const SparseEntry& e : matrix.row(row)) {
       const double v = response * static_cast<double>(e.value);
-      squares[e.column] += v * v;
+      squares[e.column] += v * v / settings.rows_share;
     }
   }
   norms_ = gpu::Buffer::from(std::vector<float>(squares.begin(), squares.end()));  // squared

@@ -21,7 +21,7 @@ class BlockCulling {
   // Bindings of culling.glsl.
   static constexpr int threshold_binding = 6, counters_binding = 7;
 
-  BlockCulling(const SparseRows& matrix, std::span<const glm::vec3> scale, float epsilon);
+  BlockCulling(const SparseRows& matrix, std::span<const glm::vec3> scale, const ProductSettings& settings);
   // Computes the threshold for these lights, clears the counters and binds both. A sum of lights that is not
   // finite culls nothing: what is wrong must reach the picture.
   void begin(const gpu::Buffer& x) const;

@@ -119,7 +119,7 @@ QuadProductGpu::QuadProductGpu(const SparseRows& matrix, std::span<const glm::ve
     : shape_(shape),
       columns_(matrix.columns),
       scale_(padded_row_scale(matrix, scale)),
-      culling_(matrix, scale, settings.cull_epsilon),
+      culling_(matrix, scale, settings),
       draw_(gpu::Program::graphics("common/linalg/quad_vertex.glsl", "common/linalg/quad_fragment.glsl",
                                    {fmt::format("WEIGHT_BITS {}", 8 * bytes_of(settings.weights))})),
       resolve_(gpu::Program::compute("common/linalg/quad_resolve.glsl")),

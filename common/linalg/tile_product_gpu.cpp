@@ -15,7 +15,7 @@ TileProductGpu::TileProductGpu(const SparseRows& matrix, std::span<const glm::ve
     : shape_(shape),
       columns_(matrix.columns),
       scale_(padded_row_scale(matrix, scale)),
-      culling_(matrix, scale, settings.cull_epsilon),
+      culling_(matrix, scale, settings),
       program_(gpu::Program::compute("common/linalg/tile_product.glsl",
                                      {fmt::format("WEIGHT_BITS {}", 8 * bytes_of(settings.weights))})) {
   check_picture_shape(shape, matrix.rows());

@@ -40,6 +40,9 @@ struct ProductSettings {
   // column)^2. That makes it independent of the lights' brightness and of the size of the picture. 0 skips
   // what gives nothing, a negative value skips nothing. Forms without blocks ignore it.
   float cull_epsilon = 0.0f;
+  // Share of the picture's rows that the matrix has, the others being empty because nobody asked for them.
+  // The lights' sum that culling compares with is extrapolated to all rows.
+  double rows_share = 1.0;
   float block_waste = 0.65f;  // largest share of zeros in a rectangle before it is split (section 4.4; 0.65
                               // stores about half zeros)
   int atlas_size = 4096;      // texels a side (section 4.4)

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <system_error>
 
 #include "common/run/atomic_file.h"
@@ -114,6 +115,20 @@ void write_parts(const std::filesystem::path& file, const Header& header, const 
 
 }  // namespace
 
+struct ArtefactCache::Memory {
+  struct Kept {
+    std::string key;
+    std::vector<std::byte> data;
+  };
+  std::map<std::string, Kept> by_kind;
+};
+
+ArtefactCache ArtefactCache::in_memory() {
+  ArtefactCache cache({}, true);
+  cache.memory_ = std::make_shared<Memory>();
+  return cache;
+}
+
 ArtefactCache::ArtefactCache(std::filesystem::path folder, bool enabled)
     : folder_(std::move(folder)), enabled_(enabled) {}
 
@@ -132,6 +147,11 @@ std::filesystem::path ArtefactCache::default_folder() {
 std::optional<std::vector<std::byte>> ArtefactCache::load(const std::string& kind,
                                                           const std::string& key) const {
   if (!enabled_) return {};
+  if (memory_) {
+    const auto kept = memory_->by_kind.find(kind);
+    if (kept == memory_->by_kind.end() || kept->second.key != key) return {};
+    return kept->second.data;
+  }
   auto opened = open_file(folder_ / file_name(kind, key));
   if (!opened || opened->kind != kind || opened->key != key) return {};
   std::vector<std::byte> data(opened->header.data_bytes);
@@ -143,6 +163,10 @@ std::optional<std::vector<std::byte>> ArtefactCache::load(const std::string& kin
 void ArtefactCache::store(const std::string& kind, const std::string& key,
                           const std::vector<std::byte>& data) const {
   if (!enabled_) return;
+  if (memory_) {
+    memory_->by_kind[kind] = {key, data};
+    return;
+  }
   const Header header{magic, kind.size(), key.size(), data.size(), checksum_of(kind, key, data)};
   write_atomically(folder_ / file_name(kind, key), [&](const std::filesystem::path& temporary) {
     write_parts(temporary, header, kind, key, data);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ class ArtefactCache {
  public:
   // `enabled` = false: load finds nothing, store does nothing.
   ArtefactCache(std::filesystem::path folder, bool enabled);
+  // A cache without files that keeps the last artefact of each kind; copies share what they keep.
+  static ArtefactCache in_memory();
   // $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else ~/.cache/relight.
   static std::filesystem::path default_folder();
 
@@ -36,8 +39,10 @@ class ArtefactCache {
   bool enabled() const { return enabled_; }
 
  private:
+  struct Memory;
   std::filesystem::path folder_;
   bool enabled_;
+  std::shared_ptr<Memory> memory_;  // null: files
 };
 
 }  // namespace relight

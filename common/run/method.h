@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/run/error_stages.h"
 #include "common/run/knobs.h"
 #include "common/run/light_paths.h"
 #include "common/run/progress.h"
@@ -35,6 +36,9 @@ struct PrepareContext {
   ArtefactCache& cache;
   Progress& progress;
   StageLog& log;  // precompute stages
+  // Where a method may keep what is the same for many settings (a gather cloud), so that the settings of one
+  // invocation share it; null: nowhere.
+  ArtefactCache* parts = nullptr;
 };
 
 // Result of one relight; all images have the view's size.
@@ -66,6 +70,8 @@ class Method {
   // Besides "paper", the defaults.
   virtual std::vector<KnobPreset> presets() const { return {}; }
   virtual LightPaths light_paths(const KnobValues& knobs) const = 0;
+  // The approximations that these settings consist of; see error_stages.h.
+  virtual ErrorStages error_stages(const KnobValues&) const { return {}; }
   virtual std::unique_ptr<Prepared> prepare(const PrepareContext& context) const = 0;
 };
 

@@ -22,7 +22,10 @@ struct DeepFrameBuffer {
   std::vector<SurfaceSample> indirect;  // width x height, row-major, row 0 on top
   std::vector<SurfaceSample> direct;    // 2 width x 2 height, row-major; sub-pixel centres at 0.25 and 0.75
   std::vector<uint8_t> edge;            // width x height; 1 = geometric edge (see edge_mask.h)
-  double edge_share() const;            // share of pixels with edge = 1, in [0,1]
+  // width x height; 1 = a pixel whose result is asked for; empty: all are. What a method takes from the view
+  // as a whole (importance, thresholds) stays that of the whole view; other pixels it may leave black.
+  std::vector<uint8_t> wanted;
+  double edge_share() const;  // share of pixels with edge = 1, in [0,1]
 };
 
 // Casts the camera rays. Deterministic; parallel over rows.

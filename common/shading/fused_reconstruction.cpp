@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "common/shading/non_finite_report.h"
-#include "common/shading/reconstruction.h"
 
 namespace relight {
 namespace {
@@ -49,12 +48,14 @@ struct FusedReconstruction::NonFinite {
   }
 };
 
-FusedReconstruction::FusedReconstruction(const DeepFrameBuffer& buffer)
+FusedReconstruction::FusedReconstruction(const DeepFrameBuffer& buffer, Upsampling upsampling)
     : width_(static_cast<size_t>(buffer.view.width)),
       height_(static_cast<size_t>(buffer.view.height)),
       quads_per_row_((width_ + 1) / 2),
       quad_rows_((height_ + 1) / 2),
+      upsampling_(upsampling),
       sources_(width_ * height_) {
+  if (upsampling == Upsampling::none) return;
   const std::vector<uint32_t> closest = closest_view_samples(buffer);
   const int w = buffer.view.width, h = buffer.view.height;
   for (int y = 0; y < h; ++y) {
@@ -71,6 +72,11 @@ FusedReconstruction::FusedReconstruction(const DeepFrameBuffer& buffer)
 
 glm::vec3 FusedReconstruction::filtered_indirect(std::span<const glm::vec4> indirect, size_t x,
                                                  size_t y) const {
+  if (upsampling_ == Upsampling::none) {
+    const glm::vec4* top = indirect.data() + 4 * y * width_ + 2 * x;
+    const glm::vec4* bottom = top + 2 * width_;
+    return glm::vec3(((top[0] + top[1]) + (bottom[0] + bottom[1])) * 0.25f);
+  }
   const size_t pixel = y * width_ + x;
   const unsigned code = sources_[pixel];
   const auto of = [&](unsigned sub) {
@@ -103,9 +109,9 @@ FusedReconstruction::NonFinite FusedReconstruction::resolve_row(std::span<const 
 FusedReconstruction::Images FusedReconstruction::resolve(std::span<const glm::vec4> direct,
                                                          std::span<const glm::vec4> indirect,
                                                          StageLog& log) const {
-  if (direct.size() < direct_values() || indirect.size() < width_ * height_)
-    throw std::logic_error(
-        "FusedReconstruction::resolve: needs a value a pixel of direct and indirect light");
+  if (direct.size() < direct_values() ||
+      indirect.size() < width_ * height_ * (upsampling_ == Upsampling::none ? 4 : 1))
+    throw std::logic_error("FusedReconstruction::resolve: needs every value of direct and indirect light");
   const StageTimer timer(log, "reconstruction");
   const Image black(static_cast<int>(width_), static_cast<int>(height_));
   Images images{black, black, black};

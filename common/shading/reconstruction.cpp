@@ -19,8 +19,8 @@ constexpr int direct_image_binding = 3, indirect_image_binding = 4;
 constexpr int direct_unit = 0, closest_unit = 1, indirect_unit = 2;
 
 // The sources of a pixel's four sub-samples side by side: one texel a pixel.
-std::vector<glm::uvec4> closest_by_pixel(const DeepFrameBuffer& buffer) {
-  const std::vector<uint32_t> closest = closest_view_samples(buffer);
+std::vector<glm::uvec4> closest_by_pixel(const DeepFrameBuffer& buffer, Upsampling upsampling) {
+  const std::vector<uint32_t> closest = indirect_sources(buffer, upsampling);
   const auto w = static_cast<size_t>(buffer.view.width), h = static_cast<size_t>(buffer.view.height);
   std::vector<glm::uvec4> pixels(w * h);
   for (size_t y = 0; y < h; ++y) {
@@ -52,10 +52,11 @@ Image download_image(const gpu::Buffer& buffer, int width, int height, const cha
 
 }  // namespace
 
-Reconstruction::Reconstruction(const DeepFrameBuffer& buffer)
+Reconstruction::Reconstruction(const DeepFrameBuffer& buffer, Upsampling upsampling)
     : width_(buffer.view.width),
       height_(buffer.view.height),
-      closest_(gpu::Buffer::from(closest_by_pixel(buffer))),
+      indirect_values_((upsampling == Upsampling::none ? int64_t{4} : int64_t{1}) * width_ * height_),
+      closest_(gpu::Buffer::from(closest_by_pixel(buffer, upsampling))),
       program_(gpu::Program::compute("common/shading/reconstruction.glsl")),
       direct_image_(int64_t{16} * width_ * height_),
       indirect_image_(int64_t{16} * width_ * height_) {
@@ -66,13 +67,17 @@ Reconstruction::Reconstruction(const DeepFrameBuffer& buffer)
         "bytes",
         width_, height_, indirect_image_.bytes(), limit);
   }
+  if (indirect_values_ > gpu::TexelView::max_texels())
+    fail("view of {} x {} pixels: {} values of indirect light exceed this GPU's largest texture buffer, {}",
+         width_, height_, indirect_values_, gpu::TexelView::max_texels());
 }
 
 Reconstruction::Images Reconstruction::resolve(const gpu::Buffer& direct, const gpu::Buffer& indirect,
                                                StageLog& log) const {
   const int64_t w = width_, h = height_;
-  if (direct.bytes() < 64 * w * h || indirect.bytes() < 16 * w * h) {
-    throw std::logic_error("Reconstruction::resolve: needs a vec4 a sub-sample and a vec4 a pixel");
+  if (direct.bytes() < 64 * w * h || indirect.bytes() < 16 * indirect_values_) {
+    throw std::logic_error(
+        "Reconstruction::resolve: needs a vec4 for each value of direct and indirect light");
   }
   const StageTimer timer(log, "reconstruction");
   using gpu::TexelView;
@@ -83,7 +88,7 @@ Reconstruction::Images Reconstruction::resolve(const gpu::Buffer& direct, const 
       16 * 16;
   const int64_t slab = std::max<int64_t>(rows_that_fit, 16);
   program_.set("image_width", static_cast<uint32_t>(w));
-  const TexelView all_indirect(indirect, rgba32f, 0, 16 * w * h);
+  const TexelView all_indirect(indirect, rgba32f, 0, 16 * indirect_values_);
   all_indirect.bind(indirect_unit);
   for (int64_t row = 0; row < h; row += slab) {
     const int64_t pixels = std::min(slab, h - row) * w, first = row * w;

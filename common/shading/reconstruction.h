@@ -13,11 +13,18 @@
 
 namespace relight {
 
+// Where sub-samples have their indirect light from: `closest`, the paper's, one value a pixel; `none`, the
+// exact twin, one value each.
+enum class Upsampling { closest, none };
+
 // For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff
 // where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" has the form of equation 9:
 // |p-p'|^2 / (20 f)^2 + |n-n'|^2 with shading normals and f the width of a pixel at the sample's distance;
 // the own pixel wins ties. Depends on the view only. Parallel, deterministic.
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer);
+
+// The same with Upsampling::none: each valid sub-sample's own index among the 2w x 2h.
+std::vector<uint32_t> indirect_sources(const DeepFrameBuffer& buffer, Upsampling upsampling);
 
 // CPU twin. indirect: one radiance a pixel. Returns the box-filtered indirect image.
 Image reconstruct_indirect_cpu(const DeepFrameBuffer& buffer, const std::vector<uint32_t>& closest,
@@ -29,10 +36,11 @@ Image box_filter_2x2(const std::vector<glm::vec3>& subsamples, int width, int he
 // The same on the GPU, equal bit by bit; logs stage "reconstruction". Needs a current context.
 class Reconstruction {
  public:
-  explicit Reconstruction(const DeepFrameBuffer& buffer);
+  explicit Reconstruction(const DeepFrameBuffer& buffer, Upsampling upsampling = Upsampling::closest);
   int64_t bytes() const { return closest_.bytes() + direct_image_.bytes() + indirect_image_.bytes(); }
-  // direct: vec4 a sub-sample; indirect: vec4 a pixel. Downloads both filtered images. Pixels that are not
-  // finite are counted (non_finite_reconstruction), warned of and replaced by zero (debug: an Error).
+  // direct: vec4 a sub-sample; indirect: vec4 a pixel, or a sub-sample with Upsampling::none. Downloads both
+  // filtered images. Pixels that are not finite are counted (non_finite_reconstruction), warned of and
+  // replaced by zero (debug: an Error).
   struct Images {
     Image direct, indirect;
   };
@@ -40,6 +48,7 @@ class Reconstruction {
 
  private:
   int width_, height_;
+  int64_t indirect_values_;
   gpu::Buffer closest_;
   gpu::Program program_;
   gpu::Buffer direct_image_, indirect_image_;

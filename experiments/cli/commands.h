@@ -19,6 +19,7 @@ void add_render_command(CLI::App& app, Action& action);
 void add_reference_command(CLI::App& app, Action& action);
 void add_references_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
+void add_explain_error_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_cache_command(CLI::App& app, Action& action);

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   relight::cli::add_reference_command(app, action);
   relight::cli::add_references_command(app, action);
   relight::cli::add_compare_command(app, action);
+  relight::cli::add_explain_error_command(app, action);
   relight::cli::add_run_command(app, action);
   relight::cli::add_report_command(app, action);
   relight::cli::add_cache_command(app, action);

@@ -64,12 +64,16 @@ void relight_repeatedly(Prepared& prepared, Session& session, int wanted, Method
 }  // namespace
 
 MethodRun run_method(const MethodPlan& plan, Session& session, int repeats) {
+  return run_method(plan, session, {session.buffer(), session.cache()}, repeats);
+}
+
+MethodRun run_method(const MethodPlan& plan, Session& session, const MethodSite& site, int repeats) {
   MethodRun run;
   const char* phase = "precompute";
   try {
-    const PrepareContext context{session.scene(), session.tracer(),       session.buffer(),
-                                 plan.knobs,      session.options().seed, *session.gpu(),
-                                 session.cache(), session.progress(),     run.precompute};
+    const PrepareContext context{session.scene(),        session.tracer(), site.buffer, plan.knobs,
+                                 session.options().seed, *session.gpu(),   site.cache,  session.progress(),
+                                 run.precompute,         site.parts};
     const auto start = std::chrono::steady_clock::now();
     const auto prepared = plan.method->prepare(context);
     run.precompute_s = seconds_since(start);

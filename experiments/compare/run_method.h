@@ -19,8 +19,16 @@ struct MethodRun {
   std::vector<double> relight_ms;  // wall time of each timed relight
 };
 
+// Where a method runs: on all of a session's view, or on what `buffer` asks for.
+struct MethodSite {
+  const DeepFrameBuffer& buffer;  // of the session's view
+  ArtefactCache& cache;
+  ArtefactCache* parts = nullptr;  // see PrepareContext
+};
+
 // repeats = 0: five, but no more than fit into about 20 s (at least one). What the method throws, and images
 // of the wrong size, become `failure`; nothing is thrown.
 MethodRun run_method(const MethodPlan& plan, Session& session, int repeats);
+MethodRun run_method(const MethodPlan& plan, Session& session, const MethodSite& site, int repeats);
 
 }  // namespace relight

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/run/error.h"
+#include "common/sampling/random.h"
 
 namespace relight::direct_to_indirect {
 namespace {
@@ -45,18 +46,30 @@ class Reader {
   size_t at_ = 0;
 };
 
+uint64_t hash_of(const std::vector<uint8_t>& mask) {
+  uint64_t hash = mask.size();
+  for (size_t i = 0; i < mask.size(); ++i)
+    if (mask[i]) hash = hash_combine(hash, i);
+  return hash;
+}
+
 std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
 
 }  // namespace
 
 std::string cache_key(const PrepareContext& context) {
+  return fmt::format("{};wanted={:016x};{}", view_key(context), hash_of(context.buffer.wanted),
+                     context.knobs.precompute_key());
+}
+
+std::string view_key(const PrepareContext& context) {
   const View& view = context.buffer.view;
   const Camera& camera = view.camera;
   return fmt::format(
-      "version={};layout={},{},{};scene={:016x};view={}x{};eye={};target={};up={};fov={};seed={};{}",
+      "version={};layout={},{},{};scene={:016x};view={}x{};eye={};target={};up={};fov={};seed={}",
       precompute_version, sizeof(SurfaceSample), sizeof(SparseEntry), sizeof(SparseEntryRgb),
       context.scene.content_hash, view.width, view.height, words(camera.eye), words(camera.target),
-      words(camera.up), camera.fov_y_degrees, context.seed, context.knobs.precompute_key());
+      words(camera.up), camera.fov_y_degrees, context.seed);
 }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {

@@ -22,6 +22,9 @@ struct Artefact {
 // it with any change of the numbers.
 std::string cache_key(const PrepareContext& context);
 
+// Of that, what the gather cloud depends on too: scene, view, seed and the version.
+std::string view_key(const PrepareContext& context);
+
 std::vector<std::byte> to_bytes(const Artefact& artefact);
 // Throws Error if the bytes are not an artefact of this format.
 Artefact from_bytes(const std::vector<std::byte>& bytes);

@@ -66,8 +66,12 @@ FinalGather compute_final_gather(const FinalGatherInput& in, const FinalGatherSe
     return worker;
   });
   const ViewTiles tiles(in.buffer);
-  progress.start("final gather", tiles.count());
-  tbb::parallel_for(0, tiles.count(), [&](int t) {
+  std::vector<int> chosen;
+  for (int t = 0; t < tiles.count(); ++t)
+    if (in.tiles.empty() || in.tiles[static_cast<size_t>(t)]) chosen.push_back(t);
+  progress.start("final gather", static_cast<int64_t>(chosen.size()));
+  tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
+    const int t = chosen[i];
     Worker& worker = workers.local();
     worker.gather.gather(tiles.samples(t), static_cast<uint64_t>(t));
     diffuse_rows.add(worker.diffuse, worker.gather.coefficients(), t);

@@ -35,7 +35,8 @@ enum class MatrixPart { diffuse, glossy };
 
 struct FinalGatherSettings {
   float link_threshold =
-      0.01f;  // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+      0.01f;                 // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+  bool all_members = false;  // a link takes the mean over its cluster's members instead of one of them
   float form_factor_clamp = 0.1f;  // largest element of a link
   bool disc_elements = false;      // links are bounded as discs, cos cos A / (pi r^2 + A), and not clamped
   int coefficients = 100;          // kept a row, or on average a row with shared_budget
@@ -72,6 +73,7 @@ struct FinalGatherInput {
   const TrainingLights& training;         // the kept coefficients are refitted to them; none: they are not
   const NearField* near_field = nullptr;  // takes the place of links to near gather samples; or none
   const GlossyGather* glossy = nullptr;   // none: F_d alone
+  std::span<const uint8_t> tiles = {};    // by number in ViewTiles: 0 = its rows stay empty; none: all
 };
 
 struct FinalGather {

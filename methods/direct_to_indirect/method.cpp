@@ -1,6 +1,7 @@
 // Direct-to-indirect transfer as a method: name, knobs, light paths; precompute.h and prepared_transfer.h do
 // the work.
 #include "methods/direct_to_indirect/direct_to_indirect.h"
+#include "methods/direct_to_indirect/error_stages.h"
 #include "methods/direct_to_indirect/knobs.h"
 #include "methods/direct_to_indirect/precompute.h"
 #include "methods/direct_to_indirect/prepared_transfer.h"
@@ -27,6 +28,9 @@ class DirectToIndirect : public Method {
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
     return paths;
+  }
+  ErrorStages error_stages(const KnobValues& knobs) const override {
+    return direct_to_indirect::error_stages(knobs);
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);

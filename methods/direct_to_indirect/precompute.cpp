@@ -4,11 +4,11 @@
 
 #include "common/run/artefact_cache.h"
 #include "common/run/error.h"
-#include "common/sampling/gather_cloud.h"
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/gather_structure.h"
 #include "methods/direct_to_indirect/glossy_rays.h"
-#include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/indirect_grid.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/near_field.h"
 #include "methods/direct_to_indirect/training_lights.h"
@@ -19,14 +19,21 @@ namespace {
 // Of near_field=cell_average.
 constexpr int64_t points_a_cell = 8;
 
+// The knob's value, or the number of all coefficients where it says 0.
+int64_t kept_coefficients(const KnobValues& knobs, const std::string& knob) {
+  const int64_t kept = knobs.integer(knob);
+  return kept > 0 ? kept : knobs.integer("gather_samples");
+}
+
 FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   FinalGatherSettings settings;
   settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.disc_elements = knobs.choice("near_field") == "disc";
-  settings.coefficients = static_cast<int>(knobs.integer("coefficients"));
-  settings.glossy_coefficients = static_cast<int>(knobs.integer("glossy_coefficients"));
+  settings.all_members = knobs.choice("link_members") == "all";
+  settings.coefficients = static_cast<int>(kept_coefficients(knobs, "coefficients"));
+  settings.glossy_coefficients = static_cast<int>(kept_coefficients(knobs, "glossy_coefficients"));
   settings.energy_fraction = knobs.real("energy_fraction");
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
@@ -36,8 +43,6 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   return settings;
 }
 
-int bounces(const KnobValues& knobs) { return static_cast<int>(knobs.integer("bounces")); }
-
 MultiBounceSettings multi_bounce_settings(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   MultiBounceSettings settings;
@@ -45,19 +50,9 @@ MultiBounceSettings multi_bounce_settings(const PrepareContext& context) {
   settings.bounces = bounces(knobs);
   settings.photons = knobs.integer("photons");
   settings.neighbours = static_cast<int>(knobs.integer("photon_neighbours"));
-  settings.coefficients = static_cast<int>(knobs.integer("bounce_coefficients"));
+  settings.coefficients = static_cast<int>(kept_coefficients(knobs, "bounce_coefficients"));
   settings.gather = final_gather_settings(context);
   return settings;
-}
-
-CloudSampling cloud_sampling(const KnobValues& knobs) {
-  return knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
-}
-
-// Where particles of importance go, and how the cloud is spread.
-GatherCloud make_cloud(const PrepareContext& context, int64_t samples, uint64_t seed) {
-  const CloudView view{context.buffer, bounces(context.knobs), context.knobs.choice("glossy") == "auto"};
-  return make_gather_cloud_for_view(context.tracer, view, cloud_sampling(context.knobs), samples, seed);
 }
 
 // Null where links alone are asked for.
@@ -76,20 +71,20 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
   return std::make_unique<NearField>(context.tracer, cloud, hierarchy, settings, points);
 }
 
+// Settings that make no sense together; each alone is in range.
+void check(const KnobValues& knobs) {
+  if (knobs.integer("coefficients") == 0 && knobs.integer("refit_lights") > 0)
+    fail(
+        "direct_to_indirect.refit_lights: {} with coefficients=0: rows that keep every coefficient have "
+        "nothing to refit; valid: 0",
+        knobs.integer("refit_lights"));
+}
+
 Artefact precompute(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   Artefact artefact;
-  {
-    StageTimer timer(context.log, "gather_cloud");
-    artefact.cloud = make_cloud(context, knobs.integer("gather_samples"), context.seed);
-  }
-  GatherHierarchy hierarchy;
-  {
-    StageTimer timer(context.log, "hierarchy");
-    order_gather_cloud(artefact.cloud, static_cast<float>(knobs.real("hierarchy_k")),
-                       context.scene.bounds.diagonal());
-    hierarchy = build_hierarchy(artefact.cloud);
-  }
+  auto [cloud, hierarchy] = make_gather_structure(context);
+  artefact.cloud = std::move(cloud);
   const FinalGatherSettings settings = final_gather_settings(context);
   std::vector<float> scale;
   if (knobs.choice("column_scaling") == "mean_row") {
@@ -112,20 +107,22 @@ Artefact precompute(const PrepareContext& context) {
   }
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   StageTimer timer(context.log, "final_gather");
-  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(context.buffer).empty();
+  const IndirectGrid grid(context.buffer, knobs);
+  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(grid.samples()).empty();
   std::optional<GlossyRays> rays;
   if (glossy && knobs.choice("glossy_gather") == "rays")
     rays.emplace(context.tracer, artefact.cloud, static_cast<int>(knobs.integer("glossy_rays")),
                  context.seed);
   const GlossyGather glossy_gather{context.buffer.view.camera.eye, rays ? &*rays : nullptr};
   const FinalGatherInput input{context.tracer,
-                               context.buffer,
+                               grid.samples(),
                                artefact.cloud,
                                hierarchy,
                                scale,
                                training,
                                near_field.get(),
-                               knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr};
+                               knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr,
+                               grid.tiles()};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;
@@ -134,6 +131,7 @@ Artefact precompute(const PrepareContext& context) {
 }  // namespace
 
 Artefact load_or_precompute(const PrepareContext& context) {
+  check(context.knobs);
   const std::string kind = "direct_to_indirect.final_gather", key = cache_key(context);
   {
     StageTimer timer(context.log, "cache_load");

@@ -6,6 +6,7 @@
 #include "common/gpu/timer.h"
 #include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
+#include "common/sampling/pixel_subset.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
@@ -31,7 +32,7 @@ struct LitSamples {
 
   LitSamples(const PrepareContext& context, const GatherCloud& cloud)
       : gather(cloud.samples, context.buffer.view.camera.eye),
-        view(context.buffer.direct, context.buffer.view.camera.eye),
+        view(wanted_direct_samples(context.buffer), context.buffer.view.camera.eye),
         lighting(context.gpu, context.scene, context.tracer,
                  {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
                   static_cast<int>(context.knobs.integer("shadow_map_size")),
@@ -53,14 +54,14 @@ struct LitSamples {
 
 class PreparedTransfer : public Prepared {
  public:
-  PreparedTransfer(const PrepareContext& context, Artefact artefact)
+  PreparedTransfer(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : matrix_(std::move(artefact.final_gather)),
-        kd_(diffuse_albedo(context.buffer)),
-        kg_(glossy_colours(context.buffer, matrix_.glossy_pixels)),
+        kd_(diffuse_albedo(grid)),
+        kg_(glossy_colours(grid.samples(), matrix_.glossy_pixels)),
         oracle_(context.knobs.choice("device") == "oracle"),
         samples_(context, artefact.cloud),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
-        reconstruction_(context.buffer),
+        reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
         indirect_(static_cast<int64_t>(kd_.size()) * 16) {
     if (artefact.multi_bounce.bounces > 1) {
@@ -71,7 +72,7 @@ class PreparedTransfer : public Prepared {
       context.log.bytes("multi_bounce_matrix_gpu", bounces_->gpu_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    make_product(context);
+    make_product(context, grid);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes());
     context.log.bytes("lighting", samples_.lighting.bytes());
@@ -94,12 +95,12 @@ class PreparedTransfer : public Prepared {
 
  private:
   // Makes the products and lets the matrices go, of which only the oracle needs the floats.
-  void make_product(const PrepareContext& context) {
+  void make_product(const PrepareContext& context, const IndirectGrid& grid) {
     log_matrices(matrix_, context.log);
     if (oracle_) return;
     const std::string& form = context.knobs.choice("product");
-    const PictureShape shape{context.buffer.view.width, context.buffer.view.height};
-    const ProductSettings settings = product_settings(context.knobs);
+    const PictureShape shape = picture_shape(grid);
+    const ProductSettings settings = product_settings(context.knobs, grid);
     const int64_t block = context.gpu.max_storage_block_bytes();
     product_ = make_product_gpu(form, matrix_.diffuse, kd_, shape, settings, block);
     log_product("transfer", product_->statistics(), context.log);
@@ -184,7 +185,8 @@ class PreparedTransfer : public Prepared {
 }  // namespace
 
 std::unique_ptr<Prepared> make_prepared_transfer(const PrepareContext& context, Artefact artefact) {
-  return std::make_unique<PreparedTransfer>(context, std::move(artefact));
+  return std::make_unique<PreparedTransfer>(context, IndirectGrid(context.buffer, context.knobs),
+                                            std::move(artefact));
 }
 
 }  // namespace relight::direct_to_indirect

@@ -5,6 +5,7 @@
 #include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
 #include "common/run/error.h"
+#include "common/sampling/pixel_subset.h"
 #include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
@@ -30,7 +31,8 @@ struct LitSamples {
 
   LitSamples(const PrepareContext& context, const GatherCloud& cloud)
       : gather(cloud.samples, sequential_order(cloud.samples.size()), context.buffer.view.camera.eye),
-        view(context.buffer.direct, pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
+        view(wanted_direct_samples(context.buffer),
+             pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
              context.buffer.view.camera.eye),
         lighting(context.tracer, static_cast<int>(context.knobs.integer("area_light_samples"))) {}
 
@@ -47,15 +49,17 @@ struct LitSamples {
 
 class PreparedTransferCpu : public Prepared {
  public:
-  PreparedTransferCpu(const PrepareContext& context, Artefact artefact)
+  PreparedTransferCpu(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : samples_(context, artefact.cloud),
         haar_(artefact.cloud.samples.size()),
-        product_(make_product(context, artefact.final_gather)),
-        glossy_product_(make_glossy_product(context, artefact.final_gather)),
-        reconstruction_(context.buffer),
+        product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather.diffuse,
+                                  diffuse_albedo(grid), picture_shape(grid),
+                                  product_settings(context.knobs, grid))),
+        glossy_product_(make_glossy_product(context, grid, artefact.final_gather)),
+        reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),
-        indirect_(context.buffer.indirect.size()) {
+        indirect_(grid.samples().indirect.size()) {
     if (artefact.multi_bounce.bounces > 1) {
       report_share_beyond(artefact.multi_bounce, context.log);
       bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud);
@@ -98,20 +102,14 @@ class PreparedTransferCpu : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
-  static std::unique_ptr<TransferProduct> make_product(const PrepareContext& context,
-                                                       const FinalGather& matrix) {
-    const View& view = context.buffer.view;
-    return make_product_cpu(context.knobs.choice("product"), matrix.diffuse, diffuse_albedo(context.buffer),
-                            {view.width, view.height}, product_settings(context.knobs));
-  }
   static std::optional<PartialProductCpu> make_glossy_product(const PrepareContext& context,
+                                                              const IndirectGrid& grid,
                                                               const FinalGather& matrix) {
     if (matrix.glossy_pixels.empty()) return std::nullopt;
-    const View& view = context.buffer.view;
-    const std::vector<glm::vec3> kg = glossy_colours(context.buffer, matrix.glossy_pixels);
+    const std::vector<glm::vec3> kg = glossy_colours(grid.samples(), matrix.glossy_pixels);
     return PartialProductCpu(context.knobs.choice("product"),
-                             {matrix.glossy, matrix.glossy_pixels, kg, {view.width, view.height}},
-                             product_settings(context.knobs));
+                             {matrix.glossy, matrix.glossy_pixels, kg, picture_shape(grid)},
+                             product_settings(context.knobs, grid));
   }
 
   LitSamples samples_;
@@ -129,7 +127,8 @@ class PreparedTransferCpu : public Prepared {
 std::unique_ptr<Prepared> make_prepared_transfer_cpu(const PrepareContext& context, Artefact artefact) {
   if (context.knobs.choice("shadows") == "map")
     fail("direct_to_indirect.shadows: 'map' needs the GPU; valid with device=cpu: auto, traced");
-  return std::make_unique<PreparedTransferCpu>(context, std::move(artefact));
+  return std::make_unique<PreparedTransferCpu>(context, IndirectGrid(context.buffer, context.knobs),
+                                               std::move(artefact));
 }
 
 }  // namespace relight::direct_to_indirect

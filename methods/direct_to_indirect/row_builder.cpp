@@ -24,7 +24,7 @@ void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& co
   }
 }
 
-SparseRows RowBuilder::finish() const {
+SparseRows RowBuilder::finish() {
   SparseRows rows;
   rows.columns = columns_;
   rows.row_start.push_back(0);
@@ -36,11 +36,13 @@ SparseRows RowBuilder::finish() const {
     for (int x = 0; x < width; ++x) {
       const auto pixel = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
       if (part_ == MatrixPart::glossy && !is_glossy(buffer_.indirect[pixel])) continue;
-      const TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
+      TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
       const size_t lane = ViewTiles::lane_of(x, y);
       const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
       rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
       rows.row_start.push_back(rows.entries.size());
+      // Rows that keep every coefficient are large: they are let go as soon as they have been copied.
+      if (lane + 1 == lanes) t.entries = {};
     }
   return rows;
 }

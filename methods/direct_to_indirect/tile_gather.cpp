@@ -158,32 +158,6 @@ uint32_t TileGather::elements(const GatherPoint& g, Lanes& value) const {
   return to_mask(positive);
 }
 
-// Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`
-// equal values F is F sqrt(size), and the details inside the cluster are zero.
-template <typename Value>
-Value TileGather::link(size_t level, size_t index, uint32_t mask) {
-  const size_t size = cloud_.samples.size() / tree_.levels[level].size();
-  const size_t member = index * size + (size > 1 ? random_member(level, index, size) : 0);
-  const GatherPoint& g = tree_.points[member];
-  Value value;
-  mask &= elements(g, value.diffuse);
-  if constexpr (Value::lobes)
-    if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
-  counts_.links += std::popcount(mask);
-  counts_.rays += std::popcount(mask);
-  const uint32_t visible =
-      mask ? tracer_.visible16(ray_start_, tracer_.offset_point(g.position, g.normal), mask) : 0;
-  // The scaled element F / w of one member stands for all of them, too.
-  const float factor =
-      std::sqrt(static_cast<float>(size)) / (column_scale_.empty() ? 1.0f : column_scale_[member]);
-  for (size_t i = 0; i < lanes; ++i) {
-    const bool seen = visible >> i & 1u;
-    value.diffuse[i] = seen ? value.diffuse[i] * factor : 0.0f;
-    if constexpr (Value::lobes) value.glossy[i] = seen ? value.glossy[i] * factor : 0.0f;
-  }
-  return value;
-}
-
 // F_g = pi rho_g F_d of unoccluded links to a point, F_d bounded as the diffuse element is. No element
 // exceeds what the whole lobe reflects: it may be narrower than the cell that the point stands for.
 Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const {
@@ -194,6 +168,52 @@ Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded,
     const float element = std::numbers::pi_v<float> * lobe_[i].value(wi) * bounded[i];
     value[i] = element > 0.0f ? std::min(lobe_[i].albedo(), element) : 0.0f;
   }
+  return value;
+}
+
+// factor x F / w of one gather sample for each lane, 0 where it is not seen.
+template <typename Value>
+Value TileGather::seen_elements(size_t member, float factor, uint32_t mask) {
+  const GatherPoint& g = tree_.points[member];
+  Value value;
+  mask &= elements(g, value.diffuse);
+  if constexpr (Value::lobes)
+    if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
+  counts_.rays += std::popcount(mask);
+  const uint32_t visible =
+      mask ? tracer_.visible16(ray_start_, tracer_.offset_point(g.position, g.normal), mask) : 0;
+  if (!column_scale_.empty()) factor /= column_scale_[member];
+  for (size_t i = 0; i < lanes; ++i) {
+    const bool seen = visible >> i & 1u;
+    value.diffuse[i] = seen ? value.diffuse[i] * factor : 0.0f;
+    if constexpr (Value::lobes) value.glossy[i] = seen ? value.glossy[i] * factor : 0.0f;
+  }
+  return value;
+}
+
+// The scaling coefficient of `size` equal values F is F sqrt(size), and the details inside the cluster are
+// zero. F is the element of one random member, which is taken for all of them, or with all_members their
+// mean. The scaled element F / w of one member stands for all of them, too.
+template <typename Value>
+Value TileGather::link(size_t level, size_t index, uint32_t mask) {
+  const size_t size = cloud_.samples.size() / tree_.levels[level].size();
+  const float root = std::sqrt(static_cast<float>(size));
+  if (settings_.all_members && size > 1) {
+    counts_.links += std::popcount(mask);
+    Value sum{};
+    for (size_t member = index * size; member < (index + 1) * size; ++member) {
+      const auto value = seen_elements<Value>(member, 1.0f / root, mask);
+      for (size_t i = 0; i < lanes; ++i) {
+        sum.diffuse[i] += value.diffuse[i];
+        if constexpr (Value::lobes) sum.glossy[i] += value.glossy[i];
+      }
+    }
+    return sum;
+  }
+  const int64_t rays = counts_.rays;
+  const auto value =
+      seen_elements<Value>(index * size + (size > 1 ? random_member(level, index, size) : 0), root, mask);
+  counts_.links += counts_.rays - rays;
   return value;
 }
 

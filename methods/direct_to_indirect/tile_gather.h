@@ -69,6 +69,8 @@ class TileGather {
   Value visit(size_t level, size_t index, uint32_t mask);
   template <typename Value>
   Value link(size_t level, size_t index, uint32_t mask);
+  template <typename Value>
+  Value seen_elements(size_t member, float factor, uint32_t mask);
   Lanes glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const;
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;

@@ -4,15 +4,21 @@
 
 namespace relight::direct_to_indirect {
 
-std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer) {
-  std::vector<glm::vec3> kd(buffer.indirect.size());
-  std::transform(buffer.indirect.begin(), buffer.indirect.end(), kd.begin(),
+std::vector<glm::vec3> diffuse_albedo(const IndirectGrid& grid) {
+  const std::vector<SurfaceSample>& samples = grid.samples().indirect;
+  std::vector<glm::vec3> kd(samples.size());
+  std::transform(samples.begin(), samples.end(), kd.begin(),
                  [](const SurfaceSample& s) { return s.diffuse; });
   return kd;
 }
 
-ProductSettings product_settings(const KnobValues& knobs) {
+PictureShape picture_shape(const IndirectGrid& grid) {
+  return {grid.samples().view.width, grid.samples().view.height};
+}
+
+ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& grid) {
   ProductSettings settings;
+  settings.rows_share = grid.tile_share();
   settings.weights = weight_format_from_string(knobs.choice("weights"));
   settings.partial_results =
       knobs.choice("partial_results") == "float16" ? PartialResults::float16 : PartialResults::float32;

@@ -7,16 +7,19 @@
 #include "common/linalg/transfer_product.h"
 #include "common/run/knobs.h"
 #include "common/run/stage_log.h"
-#include "common/sampling/deep_frame_buffer.h"
 #include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/indirect_grid.h"
 
 namespace relight::direct_to_indirect {
 
-// k_d of equation 7: one a pixel.
-std::vector<glm::vec3> diffuse_albedo(const DeepFrameBuffer& buffer);
+// k_d of equation 7: one a sample of the grid.
+std::vector<glm::vec3> diffuse_albedo(const IndirectGrid& grid);
+
+// The picture that the matrix's rows are.
+PictureShape picture_shape(const IndirectGrid& grid);
 
 // Knobs weights, partial_results, cull_epsilon and block_waste.
-ProductSettings product_settings(const KnobValues& knobs);
+ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& grid);
 
 // Bytes <name>_product, counters <name>_weights_stored, <name>_blocks and <name>_atlases.
 void log_product(const std::string& name, const ProductStatistics& statistics, StageLog& log);

@@ -158,6 +158,38 @@ TEST(ProductCulling, EpsilonZeroSkipsOnlyWhatGivesNothingAndLargerOnesLoseWhatTh
   }
 }
 
+// Two equal screen tiles side by side, and the left one alone with a share of a half: the same blocks of it
+// must be culled. Red if the lights' sum is not extrapolated to the rows that are missing (tried).
+TEST(ProductCulling, OfSomeRowsIsThatOfTheWholePicture) {
+  const auto context = gpu::Context::create("osmesa");
+  const SparseRows tile = check::image_like_matrix(16, 8, 300, 30);
+  const std::vector<glm::vec3> tile_scale = check::random_scale(tile.rows());
+  SparseRows both{tile.columns, {0}, {}}, left = both;
+  std::vector<glm::vec3> scale;
+  for (size_t r = 0; r < 2 * tile.rows(); ++r) {
+    const size_t x = r % 32, from = r / 32 * 16 + x % 16;
+    const auto row = tile.row(from);
+    both.entries.insert(both.entries.end(), row.begin(), row.end());
+    if (x < 16) left.entries.insert(left.entries.end(), row.begin(), row.end());
+    both.row_start.push_back(both.entries.size()), left.row_start.push_back(left.entries.size());
+    scale.push_back(tile_scale[from]);
+  }
+  const std::vector<glm::vec4> x = check::random_light(tile.columns);
+  for (const float epsilon : {0.003f, 0.03f}) {
+    ProductSettings settings;
+    settings.cull_epsilon = epsilon;
+    const auto culled = [&](const SparseRows& m, double share) {
+      settings.rows_share = share;
+      const auto product = make_product_gpu("tiles", m, scale, {32, 8}, settings, 1 << 20);
+      std::vector<glm::vec4> y(m.rows());
+      static_cast<const TransferProduct&>(*product).multiply(x, y);
+      return product->culled().blocks;
+    };
+    EXPECT_GT(culled(left, 0.5), 0);
+    EXPECT_EQ(2 * culled(left, 0.5), culled(both, 1.0)) << epsilon;
+  }
+}
+
 // Tried: without the test for a finite sum in cull_threshold.glsl an infinite light makes every other block
 // "small".
 TEST(ProductCulling, ALightThatIsNotFiniteCullsNothingAndReachesThePicture) {

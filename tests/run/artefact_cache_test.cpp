@@ -29,6 +29,20 @@ std::filesystem::path only_file(const ArtefactCache& cache) {
   return std::filesystem::directory_iterator(cache.folder())->path();
 }
 
+// Bug: kinds or keys mixed up, an older artefact kept besides (one may have gigabytes), or a file written.
+TEST(ArtefactCache, InMemoryKeepsTheLastOfEachKind) {
+  const ArtefactCache cache = ArtefactCache::in_memory();
+  const ArtefactCache copy = cache;
+  cache.store("matrix", "a", example_data(10));
+  cache.store("cloud", "a", example_data(20));
+  cache.store("matrix", "b", example_data(30));
+  EXPECT_EQ(copy.load("matrix", "b"), example_data(30));
+  EXPECT_EQ(copy.load("cloud", "a"), example_data(20));
+  EXPECT_FALSE(copy.load("matrix", "a"));
+  EXPECT_FALSE(copy.load("cloud", "b"));
+  EXPECT_TRUE(cache.list().empty());
+}
+
 // Bug: data cut, shifted by the header, or empty data taken for a miss.
 TEST(ArtefactCache, GivesBackWhatWasStored) {
   const TemporaryFolder folder;

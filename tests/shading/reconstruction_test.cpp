@@ -9,6 +9,7 @@
 #include "common/run/error.h"
 #include "common/run/stage_log.h"
 #include "common/sampling/random.h"
+#include "common/shading/fused_reconstruction.h"
 #include "tests/gpu/contexts.h"
 #include "tests/shading/shading_fixture.h"
 
@@ -96,6 +97,27 @@ TEST(Reconstruction, GpuEqualsCpuBitByBit) {
   check();
   std::string reason;
   if (const auto egl = test::egl_or_null(reason)) check();
+}
+
+// The exact twin of upsampling, on the GPU and in one pass on the CPU. Red if a sub-sample takes its
+// neighbour's value (tried: rows of the grid swapped) or a miss gives light.
+TEST(Reconstruction, WithoutUpsamplingEachSubsampleHasItsOwnValue) {
+  const auto context = gpu::Context::create("osmesa");
+  const DeepFrameBuffer buffer = buffer_of(13, 6, [](float x, float y) {
+    return x < 7.6f ? sample_at({x * 0.1f, -y * 0.1f, 0}, {0, 0, 1}) : SurfaceSample{};
+  });
+  auto values = random_values(buffer.direct.size(), 2);
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!buffer.direct[i].valid) values[i] = glm::vec3(0.0f);
+  const Image expected = box_filter_2x2(values, 13, 6);
+  StageLog log;
+  const auto gpu = Reconstruction(buffer, Upsampling::none).resolve(on_gpu(values), on_gpu(values), log);
+  expect_equal(gpu.indirect, expected);
+  const FusedReconstruction fused(buffer, Upsampling::none);
+  std::vector<glm::vec4> padded;
+  for (const glm::vec3& v : values) padded.emplace_back(v, 0.0f);
+  const std::vector<glm::vec4> no_direct(fused.direct_values(), glm::vec4(0.0f));
+  expect_equal(fused.resolve(no_direct, padded, log).indirect, expected);
 }
 
 // Red if light of the bright wall leaks onto the black panel: a bilinear lookup gives the panel's last column

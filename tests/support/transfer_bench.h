@@ -37,7 +37,7 @@ class TransferBench {
     values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
     prepare_log = {};
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log});
+    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log, parts});
   }
 
   Scene scene;
@@ -50,7 +50,8 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
-  StageLog prepare_log;  // of the last prepare
+  StageLog prepare_log;            // of the last prepare
+  ArtefactCache* parts = nullptr;  // see PrepareContext
 };
 
 inline double norm(const Image& image) {
