@@ -48,8 +48,8 @@ std::vector<Light> with_and_without_shadows() {
 }
 
 // Traced shadows on both. Stated bound: 1e-6 (16 roundings) of rounding_scale_of. Red if (tried): the GPU
-// leaves out the emitter's cosine; takes a directional light's place for its direction; one point of an area
-// is lost.
+// leaves out the emitter's cosine; takes a directional light's place for its direction; reads a wrong
+// row of the slide.
 TEST(EveryLight, IsTheSameOnTheGpuAndItsCpuTwin) {
   const auto context = gpu::Context::create("osmesa");
   const Room room;
@@ -67,8 +67,8 @@ TEST(EveryLight, IsTheSameOnTheGpuAndItsCpuTwin) {
   }
 }
 
-// Bit by bit. Red if (tried): culling by bounds takes a directional light for one at the origin; the points
-// of an area are culled by half the cone.
+// Bit by bit. Red if (tried): culling by bounds takes a directional light for one at the origin; cones are
+// culled by half their angle.
 TEST(EveryLight, IsTheSameInBlocksBitByBit) {
   Room room;
   sort_by_place(room.samples);
