@@ -38,7 +38,7 @@ Experiment read_experiment(const std::filesystem::path& file);
 // One run of the expanded product.
 struct PlannedRun {
   ComparePlan plan;        // of one method; session.scene, lights, seed, view set
-  std::string label;       // for people and folder names: what varies in its group
+  std::string label;       // for people and folder names: preset, knobs that the file sets, seed
   std::string scene_hash;  // content hash of the scene
 };
 

@@ -33,12 +33,11 @@ uint64_t parse_seed(const std::string& text) {
   return std::stoull(text);
 }
 
-// What tells the run from the others of its group.
+// What tells the run from all others on its scene and lights: every knob that the file sets.
 std::string label(const RunGroup& group, const std::string& preset, const std::string& seed,
                   const std::vector<KnobSetting>& settings) {
   std::string text = preset;
-  for (const KnobSetting& s : settings)
-    if (group.knobs.at(s.knob).size() > 1) text += fmt::format(" {}={}", s.knob, s.value);
+  for (const KnobSetting& s : settings) text += fmt::format(" {}={}", s.knob, s.value);
   if (group.seeds.size() > 1) text += fmt::format(" seed={}", seed);
   return text;
 }

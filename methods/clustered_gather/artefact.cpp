@@ -10,7 +10,7 @@
 namespace relight::clustered_gather {
 namespace {
 
-constexpr int precompute_version = 1;
+constexpr int precompute_version = 2;
 
 struct StoredSample {
   glm::vec3 position, shading_normal, geometric_normal, diffuse;
@@ -70,9 +70,12 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
   std::vector<std::byte> out;
   append(out, samples);
   append(out, artefact.gather.first);
-  append(out, std::vector<uint32_t>{artefact.links.per_pixel});
-  append(out, artefact.links.cluster);
-  append(out, artefact.links.weight);
+  for (const Links* links : {&artefact.diffuse, &artefact.glossy}) {
+    append(out, std::vector<uint32_t>{links->per_pixel});
+    append(out, links->pixel);
+    append(out, links->cluster);
+    append(out, links->weight);
+  }
   return out;
 }
 
@@ -87,14 +90,18 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
     artefact.gather.samples.push_back(s);
   }
   artefact.gather.first = reader.next<uint32_t>();
-  const std::vector<uint32_t> per_pixel = reader.next<uint32_t>();
-  artefact.links.cluster = reader.next<uint32_t>();
-  artefact.links.weight = reader.next<float>();
-  if (per_pixel.size() != 1 || artefact.gather.first.empty() ||
-      artefact.gather.first.back() != artefact.gather.samples.size() ||
-      artefact.links.cluster.size() != artefact.links.weight.size())
+  for (Links* links : {&artefact.diffuse, &artefact.glossy}) {
+    const std::vector<uint32_t> per_pixel = reader.next<uint32_t>();
+    links->pixel = reader.next<uint32_t>();
+    links->cluster = reader.next<uint32_t>();
+    links->weight = reader.next<float>();
+    if (per_pixel.size() != 1 || links->cluster.size() != links->weight.size() ||
+        links->cluster.size() != links->pixel.size() * per_pixel[0])
+      fail("cached artefact: inconsistent sizes");
+    links->per_pixel = per_pixel[0];
+  }
+  if (artefact.gather.first.empty() || artefact.gather.first.back() != artefact.gather.samples.size())
     fail("cached artefact: inconsistent sizes");
-  artefact.links.per_pixel = per_pixel[0];
   return artefact;
 }
 

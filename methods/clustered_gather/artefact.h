@@ -13,7 +13,7 @@ namespace relight::clustered_gather {
 
 struct Artefact {
   GatherSamples gather;
-  Links links;
+  Links diffuse, glossy;  // glossy view clusters are numbered after the diffuse ones; none without gloss
 };
 
 // Everything the artefact depends on, in words. Contains the version of this folder's precompute code: raise

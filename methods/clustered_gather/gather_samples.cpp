@@ -17,22 +17,49 @@ constexpr uint64_t stream = 0x67617468657231ull;
 
 struct Worker {
   std::vector<SurfaceSample> points;
+  std::vector<glm::vec3> weights;
   std::vector<Point6> points6;
   int64_t rays = 0, hits = 0;
 };
 
-// The diffuse points that directions from the view cluster hit. Points that reflect nothing diffusely are
-// kept: they are part of what the clusters must cover, and removing them would be a clustering of its own.
-void trace(const RayTracer& tracer, const SurfaceSample& from, uint64_t scramble, int directions,
-           Worker& worker) {
-  worker.points.clear();
+struct Direction {
+  glm::vec3 wi;
+  glm::vec3 weight;  // of the radiance from there, times the number of directions
+};
+
+Direction diffuse_direction(const SurfaceSample& from, const glm::vec2& u) {
+  return {sample_cosine(from.shading_normal, u), glm::vec3(1.0f)};
+}
+
+// Weight 0 where nothing is reflected from that direction.
+Direction glossy_direction(const SurfaceSample& from, const glm::vec3& eye, float u_lobe,
+                           const glm::vec2& u) {
+  const shader::BrdfParams brdf = from.brdf();
+  const glm::vec3 n = from.shading_normal, wo = glm::normalize(eye - from.position);
+  const glm::vec3 wi = glm::normalize(shader::brdf_glossy_sample(brdf, n, wo, u_lobe, u));
+  const float cosine = glm::dot(n, wi), density = shader::brdf_glossy_pdf(brdf, n, wo, wi);
+  if (!(cosine > 0.0f) || !(density > 0.0f)) return {wi, glm::vec3(0.0f)};
+  return {wi, shader::brdf_glossy(brdf, n, wo, wi) * (cosine / density)};
+}
+
+// The points that directions from the view cluster hit. Points that reflect nothing diffusely are kept: they
+// are part of what the clusters must cover, and removing them would be a clustering of its own.
+void trace(const RayTracer& tracer, const SurfaceSample& from, uint64_t scramble,
+           const GatherSettings& settings, Worker& worker) {
+  worker.points.clear(), worker.weights.clear();
   const glm::vec3 origin = tracer.offset_point(from.position, from.geometric_normal);
-  for (int i = 0; i < directions; ++i) {
-    const glm::vec3 w = sample_cosine(from.shading_normal, sobol_2d(static_cast<uint32_t>(i), scramble));
-    if (!(glm::dot(w, from.geometric_normal) > 0.0f)) continue;
+  const float share = 1.0f / static_cast<float>(settings.directions);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(settings.directions); ++i) {
+    const glm::vec2 u = sobol_2d(i, scramble);
+    const Direction d = settings.part == Part::diffuse
+                            ? diffuse_direction(from, u)
+                            : glossy_direction(from, settings.eye, random_float(scramble, stream, i, 1), u);
+    if (d.weight == glm::vec3(0.0f) || !(glm::dot(d.wi, from.geometric_normal) > 0.0f)) continue;
     ++worker.rays;
-    const Hit hit = tracer.intersect(origin, w);
-    if (hit.valid) worker.points.push_back(tracer.surface(hit, w));
+    const Hit hit = tracer.intersect(origin, d.wi);
+    if (!hit.valid) continue;
+    worker.points.push_back(tracer.surface(hit, d.wi));
+    worker.weights.push_back(d.weight * share);
   }
   worker.hits += static_cast<int64_t>(worker.points.size());
 }
@@ -40,11 +67,10 @@ void trace(const RayTracer& tracer, const SurfaceSample& from, uint64_t scramble
 // One gather sample for each cluster of the points, diffuse albedo = sum of weight x albedo of the members.
 std::vector<SurfaceSample> reduce(Worker& worker, const Metric6& metric, const GatherSettings& settings,
                                   uint64_t seed) {
-  const float weight = 1.0f / static_cast<float>(settings.directions);
   const size_t limit = settings.clusters == 0 ? worker.points.size() : settings.clusters;
   if (worker.points.size() <= limit) {
     std::vector<SurfaceSample> all = worker.points;
-    for (SurfaceSample& s : all) s.diffuse *= weight;
+    for (size_t i = 0; i < all.size(); ++i) all[i].diffuse *= worker.weights[i];
     return all;
   }
   worker.points6.clear();
@@ -60,33 +86,35 @@ std::vector<SurfaceSample> reduce(Worker& worker, const Metric6& metric, const G
   for (size_t k = 0; k < clustering.centres.size(); ++k) {
     reduced.push_back(representative(worker.points, members.of(k)));
     glm::dvec3 albedo(0.0);
-    for (const uint32_t i : members.of(k)) albedo += glm::dvec3(worker.points[i].diffuse);
-    reduced.back().diffuse = glm::vec3(albedo * static_cast<double>(weight));
+    for (const uint32_t i : members.of(k))
+      albedo += glm::dvec3(worker.points[i].diffuse) * glm::dvec3(worker.weights[i]);
+    reduced.back().diffuse = glm::vec3(albedo);
   }
   return reduced;
 }
 
 }  // namespace
 
-GatherSamples make_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
-                                  const GatherSettings& settings, Progress& progress, StageLog& log) {
+void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
+                        const GatherSettings& settings, Progress& progress, StageLog& log,
+                        GatherSamples& out) {
   std::vector<std::vector<SurfaceSample>> reduced(view.samples.size());
   tbb::enumerable_thread_specific<Worker> workers;
-  progress.start("gather samples", static_cast<int>(view.samples.size()));
+  const bool glossy = settings.part == Part::glossy;
+  progress.start(glossy ? "glossy gather samples" : "gather samples", static_cast<int>(view.samples.size()));
   tbb::parallel_for(size_t{0}, view.samples.size(), [&](size_t k) {
     Worker& worker = workers.local();
-    const uint64_t scramble = random_bits(settings.seed, stream, k, 0);
-    trace(tracer, view.samples[k], scramble, settings.directions, worker);
+    const uint64_t scramble = random_bits(settings.seed, stream, k, glossy ? 1 : 0);
+    trace(tracer, view.samples[k], scramble, settings, worker);
     reduced[k] = reduce(worker, metric, settings, scramble);
     progress.advance();
   });
   progress.finish();
-  GatherSamples out;
-  size_t total = 0;
+  const size_t before = out.samples.size();
+  size_t total = before;
   for (const auto& r : reduced) total += r.size();
   if (total >= (size_t{1} << 32)) fail("clustered_gather: {} gather samples; at most 2^32 - 1", total);
   out.samples.reserve(total);
-  out.first.push_back(0);
   for (auto& r : reduced) {
     out.samples.insert(out.samples.end(), r.begin(), r.end());
     out.first.push_back(static_cast<uint32_t>(out.samples.size()));
@@ -94,10 +122,10 @@ GatherSamples make_gather_samples(const RayTracer& tracer, const ViewClusters& v
   }
   int64_t rays = 0, hits = 0;
   for (const Worker& w : workers) rays += w.rays, hits += w.hits;
-  log.count("gather_rays", rays);
-  log.count("gather_points", hits);
-  log.count("gather_samples", static_cast<int64_t>(out.samples.size()));
-  return out;
+  const std::string prefix = glossy ? "glossy_" : "";
+  log.count(prefix + "gather_rays", rays);
+  log.count(prefix + "gather_points", hits);
+  log.count(prefix + "gather_samples", static_cast<int64_t>(total - before));
 }
 
 }  // namespace relight::clustered_gather

@@ -2,9 +2,10 @@
 // reduced to a few clusters at once, so that the full set is never in memory (clustered gather paper, 2006,
 // sections 3.1 to 3.3, equations 2 and 3).
 //
-// Directions follow the cosine to the view cluster's normal, so that a direction that hits weighs 1 /
-// directions: irradiance / pi = sum of weight x radiance leaving the point. Directions that hit nothing, or
-// that start below the geometric surface, count as black.
+// Diffuse: directions follow the cosine to the view cluster's normal, so that each weighs 1 / directions and
+// the sum of weight x radiance leaving the points is irradiance / pi. Glossy: they follow the lobe of the
+// cluster's BRDF towards the eye and weigh f cos / (density x directions), so that the sum is the radiance
+// reflected to the eye. Directions that hit nothing, or that start below a surface, count as black.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +20,10 @@
 namespace relight::clustered_gather {
 
 // Samples first[k] .. first[k + 1] - 1 belong to view cluster k. Their diffuse albedo is multiplied by their
-// weight, as in the paper: the sum of the radiance that leaves them is irradiance / pi of the view cluster.
+// weight, as in the paper: the sum of the radiance that leaves them is what the view cluster gathers.
 struct GatherSamples {
   std::vector<SurfaceSample> samples;
-  std::vector<uint32_t> first;  // view clusters + 1
+  std::vector<uint32_t> first{0};  // view clusters + 1
 };
 
 struct GatherSettings {
@@ -31,11 +32,15 @@ struct GatherSettings {
   ClusteringStart start = ClusteringStart::hierarchical;
   int iterations = 5;
   uint64_t seed = 1;
+  Part part = Part::diffuse;
+  glm::vec3 eye{0.0f};  // where glossy light is seen from
 };
 
-// Logs counters gather_rays, gather_points (rays that hit) and gather_samples.
+// Logs counters gather_rays, gather_points (rays that hit) and gather_samples; of the glossy part with the
+// prefix glossy_. Appends to `out`; its view clusters are numbered after those that are there.
 // Parallel, deterministic.
-GatherSamples make_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
-                                  const GatherSettings& settings, Progress& progress, StageLog& log);
+void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
+                        const GatherSettings& settings, Progress& progress, StageLog& log,
+                        GatherSamples& out);
 
 }  // namespace relight::clustered_gather

@@ -4,7 +4,7 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer First { uint first[]; };
 layout(binding = 1) uniform samplerBuffer radiance;
-layout(std430, binding = 2) writeonly buffer Irradiance { vec4 irradiance[]; };  // divided by pi
+layout(std430, binding = 2) writeonly buffer Gathered { vec4 gathered[]; };
 uniform uint clusters;
 
 void main() {
@@ -13,5 +13,5 @@ void main() {
   vec3 sum = vec3(0.0f);
   int end = int(first[k + 1u]);
   for (int i = int(first[k]); i < end; ++i) sum += texelFetch(radiance, i).rgb;
-  irradiance[k] = vec4(sum, 0.0f);
+  gathered[k] = vec4(sum, 0.0f);
 }

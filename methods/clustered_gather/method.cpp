@@ -14,14 +14,20 @@ class ClusteredGather : public Method {
   std::string name() const override { return "clustered_gather"; }
   std::string summary() const override {
     return "Direct light on gather samples of clustered view samples, themselves clustered from Monte Carlo "
-           "rays (diffuse, one bounce).";
+           "rays (one bounce; glossy only at the view).";
   }
   std::string paper() const override {
-    return "One-bounce indirect illumination for deep-framebuffer relighting by clustered Monte Carlo gathering "
-           "(the authors of direct-to-indirect transfer, 2006; the title page is missing from the text at hand)";
+    return "One-bounce indirect illumination for deep-framebuffer relighting by clustered Monte Carlo "
+           "gathering "
+           "(the authors of direct-to-indirect transfer, 2006; the title page is missing from the text at "
+           "hand)";
   }
   KnobTable knobs() const override { return knob_table(); }
-  LightPaths light_paths(const KnobValues&) const override { return {}; }
+  LightPaths light_paths(const KnobValues& knobs) const override {
+    LightPaths paths;
+    paths.glossy_at_eye = knobs.choice("glossy") == "auto";
+    return paths;
+  }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);
     StageTimer timer(context.log, "upload");

@@ -10,35 +10,54 @@ ClusteringStart start(const KnobValues& knobs) {
   return knobs.choice("clustering") == "two_phase" ? ClusteringStart::hierarchical : ClusteringStart::random;
 }
 
-Artefact precompute(const PrepareContext& context) {
+// View clusters, links and gather samples of one part of the reflection.
+Links add_part(const PrepareContext& context, Part part, size_t clusters, GatherSamples& gather) {
   const KnobValues& knobs = context.knobs;
   const Metric6 metric(context.scene.bounds.diagonal(), static_cast<float>(knobs.real("normal_weight")));
   const int iterations = static_cast<int>(knobs.integer("iterations"));
+  const std::string prefix = part == Part::glossy ? "glossy_" : "";
+  std::vector<uint32_t> pixels = pixels_with(context.buffer, part);
   ViewClusters view;
   {
-    StageTimer timer(context.log, "view_clusters");
+    StageTimer timer(context.log, prefix + "view_clusters");
     ClusteringSettings settings;
-    settings.clusters = static_cast<size_t>(knobs.integer("view_clusters"));
+    settings.clusters = clusters;
     settings.start = start(knobs);
     settings.iterations = iterations;
     settings.seed = context.seed;
-    view = cluster_view(context.buffer, metric, settings);
-    context.log.count("view_clusters", static_cast<int64_t>(view.samples.size()));
+    view = cluster_view(context.buffer, pixels, metric, settings);
+    context.log.count(prefix + "view_clusters", static_cast<int64_t>(view.samples.size()));
   }
-  Artefact artefact;
+  Links links;
   {
-    StageTimer timer(context.log, "links");
-    artefact.links = link_pixels(context.buffer, view, metric, static_cast<int>(knobs.integer("neighbours")));
+    StageTimer timer(context.log, prefix + "links");
+    links = link_pixels(context.buffer, std::move(pixels), part, view, metric,
+                        static_cast<int>(knobs.integer("neighbours")));
+    // Numbers of clusters go on where those of the parts before end.
+    const auto before = static_cast<uint32_t>(gather.first.size() - 1);
+    for (uint32_t& k : links.cluster) k += before;
   }
-  StageTimer timer(context.log, "gather_samples");
+  StageTimer timer(context.log, prefix + "gather_samples");
   GatherSettings settings;
   settings.directions = static_cast<int>(knobs.integer("directions"));
   settings.clusters = static_cast<size_t>(knobs.integer("gather_clusters"));
   settings.start = start(knobs);
   settings.iterations = iterations;
   settings.seed = context.seed;
-  artefact.gather =
-      make_gather_samples(context.tracer, view, metric, settings, context.progress, context.log);
+  settings.part = part;
+  settings.eye = context.buffer.view.camera.eye;
+  add_gather_samples(context.tracer, view, metric, settings, context.progress, context.log, gather);
+  return links;
+}
+
+Artefact precompute(const PrepareContext& context) {
+  const auto wanted = static_cast<size_t>(context.knobs.integer("view_clusters"));
+  const bool glossy =
+      context.knobs.choice("glossy") == "auto" && !pixels_with(context.buffer, Part::glossy).empty();
+  const Split split = glossy ? split_by_energy(context.buffer, wanted) : Split{wanted, 0};
+  Artefact artefact;
+  artefact.diffuse = add_part(context, Part::diffuse, split.diffuse, artefact.gather);
+  if (glossy) artefact.glossy = add_part(context, Part::glossy, split.glossy, artefact.gather);
   return artefact;
 }
 

@@ -46,17 +46,49 @@ struct LitSamples {
   }
 };
 
-// Two links a texel, the last of an odd number with weight 0.
-gpu::Buffer pack(const Links& links, size_t pixels) {
-  const size_t n = links.per_pixel, texels = (n + 1) / 2;
-  std::vector<uint32_t> words(pixels * texels * 4, 0u);
-  for (size_t p = 0; p < pixels && n > 0; ++p)
-    for (size_t k = 0; k < n; ++k) {
-      words[p * texels * 4 + 2 * k] = links.cluster[p * n + k];
-      words[p * texels * 4 + 2 * k + 1] = std::bit_cast<uint32_t>(links.weight[p * n + k]);
+// The links of one part on the GPU, two a texel, the last of an odd number with weight 0.
+class GpuLinks {
+ public:
+  GpuLinks(const Links& links, Part part)
+      : links_(pack(links)),
+        pixel_(gpu::Buffer::from(links.pixel)),
+        program_(gpu::Program::compute("methods/clustered_gather/links.glsl",
+                                       {part == Part::diffuse ? "DIFFUSE 1" : "DIFFUSE 0"})),
+        pixels_(links.pixel.size()),
+        texels_per_pixel_((links.per_pixel + 1) / 2) {}
+
+  void interpolate(const gpu::Buffer& gathered, const gpu::Buffer& albedo,
+                   const gpu::Buffer& indirect) const {
+    using enum gpu::TexelView::Format;
+    if (pixels_ == 0) return;
+    const gpu::TexelView links(links_, rgba32ui), from(gathered, rgba32f), factor(albedo, rgba32f);
+    program_.use();
+    links.bind(0), from.bind(1), factor.bind(2);
+    indirect.bind_storage(3);
+    pixel_.bind_storage(4);
+    program_.set("pixels", static_cast<uint32_t>(pixels_));
+    program_.set("texels_per_pixel", texels_per_pixel_);
+    program_.dispatch_items(static_cast<int64_t>(pixels_), 64);
+  }
+  int64_t bytes() const { return links_.bytes() + pixel_.bytes(); }
+
+ private:
+  static gpu::Buffer pack(const Links& links) {
+    const size_t n = links.per_pixel, texels = (n + 1) / 2;
+    std::vector<uint32_t> words(links.pixel.size() * texels * 4, 0u);
+    for (size_t i = 0; i < links.cluster.size(); ++i) {
+      const size_t at = i / n * texels * 4 + i % n * 2;
+      words[at] = links.cluster[i];
+      words[at + 1] = std::bit_cast<uint32_t>(links.weight[i]);
     }
-  return gpu::Buffer::from(words);
-}
+    return gpu::Buffer::from(words);
+  }
+
+  gpu::Buffer links_, pixel_;
+  gpu::Program program_;
+  size_t pixels_;
+  uint32_t texels_per_pixel_;
+};
 
 std::vector<glm::vec4> albedo(const DeepFrameBuffer& buffer) {
   std::vector<glm::vec4> kd;
@@ -71,21 +103,22 @@ class PreparedGather : public Prepared {
         samples_(context, artefact.gather),
         direct_(samples_.make()),
         first_(gpu::Buffer::from(artefact.gather.first)),
-        links_(pack(artefact.links, context.buffer.indirect.size())),
         albedo_(gpu::Buffer::from(albedo(context.buffer))),
-        irradiance_(static_cast<int64_t>(std::max<size_t>(artefact.gather.first.size() - 1, 1)) * 16),
+        gathered_(static_cast<int64_t>(std::max<size_t>(artefact.gather.first.size() - 1, 1)) * 16),
         indirect_(static_cast<int64_t>(context.buffer.indirect.size()) * 16),
         sum_(gpu::Program::compute("methods/clustered_gather/indirect_sum.glsl")),
-        link_(gpu::Program::compute("methods/clustered_gather/links.glsl")),
         reconstruction_(context.buffer),
-        clusters_(artefact.gather.first.size() - 1),
-        texels_per_pixel_((artefact.links.per_pixel + 1) / 2) {
-    if (oracle_) host_ = {std::move(artefact.gather.first), std::move(artefact.links), context.buffer};
+        clusters_(artefact.gather.first.size() - 1) {
+    links_.emplace_back(artefact.diffuse, Part::diffuse);
+    if (!artefact.glossy.pixel.empty()) links_.emplace_back(artefact.glossy, Part::glossy);
+    int64_t link_bytes = first_.bytes();
+    for (const GpuLinks& l : links_) link_bytes += l.bytes();
+    if (oracle_) host_ = {std::move(artefact), context.buffer};
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + albedo_.bytes());
-    context.log.bytes("links", links_.bytes() + first_.bytes());
+    context.log.bytes("links", link_bytes);
     context.log.bytes("lighting", samples_.lighting.bytes());
-    context.log.bytes("partial_results", direct_.bytes() + irradiance_.bytes() + indirect_.bytes());
+    context.log.bytes("partial_results", direct_.bytes() + gathered_.bytes() + indirect_.bytes());
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
@@ -104,26 +137,20 @@ class PreparedGather : public Prepared {
 
  private:
   void sum_on_gpu(const gpu::Buffer& radiance, StageLog& log) {
-    using enum gpu::TexelView::Format;
     {
       StageTimer timer(log, "indirect_sum");
-      const gpu::TexelView view(radiance, rgba32f);
+      const gpu::TexelView view(radiance, gpu::TexelView::Format::rgba32f);
       sum_.use();
       first_.bind_storage(0);
       view.bind(1);
-      irradiance_.bind_storage(2);
+      gathered_.bind_storage(2);
       sum_.set("clusters", static_cast<uint32_t>(clusters_));
       sum_.dispatch_items(static_cast<int64_t>(clusters_), 64);
       gpu::finish();
     }
     StageTimer timer(log, "links");
-    const gpu::TexelView links(links_, rgba32ui), irradiance(irradiance_, rgba32f), albedo(albedo_, rgba32f);
-    link_.use();
-    links.bind(0), irradiance.bind(1), albedo.bind(2);
-    indirect_.bind_storage(3);
-    link_.set("pixels", static_cast<uint32_t>(indirect_.bytes() / 16));
-    link_.set("texels_per_pixel", texels_per_pixel_);
-    link_.dispatch_items(indirect_.bytes() / 16, 64);
+    indirect_.clear();
+    for (const GpuLinks& l : links_) l.interpolate(gathered_, albedo_, indirect_);
     gpu::finish();
   }
 
@@ -138,11 +165,11 @@ class PreparedGather : public Prepared {
   SumsCpu host_;  // of the oracle only
   LitSamples samples_;
   CachedDirectLight<DirectLight> direct_;
-  gpu::Buffer first_, links_, albedo_, irradiance_, indirect_;
-  gpu::Program sum_, link_;
+  gpu::Buffer first_, albedo_, gathered_, indirect_;
+  gpu::Program sum_;
+  std::vector<GpuLinks> links_;
   Reconstruction reconstruction_;
   size_t clusters_;
-  uint32_t texels_per_pixel_;
 };
 
 }  // namespace

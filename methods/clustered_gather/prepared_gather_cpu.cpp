@@ -42,7 +42,7 @@ class PreparedGatherCpu : public Prepared {
   PreparedGatherCpu(const PrepareContext& context, Artefact artefact)
       : samples_(context, artefact.gather),
         direct_(samples_.make()),
-        sums_(std::move(artefact.gather.first), std::move(artefact.links), context.buffer),
+        sums_(std::move(artefact), context.buffer),
         reconstruction_(context.buffer) {
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
@@ -52,15 +52,15 @@ class PreparedGatherCpu : public Prepared {
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
     const DirectLight& direct = direct_.shade(samples_, lighting, log);
-    std::vector<glm::vec3> irradiance;
+    std::vector<glm::vec3> gathered;
     {
       const StageTimer timer(log, "indirect_sum");
-      irradiance = sums_.irradiance<float>(direct.gather);
+      gathered = sums_.gathered<float>(direct.gather);
     }
     std::vector<glm::vec4> indirect;
     {
       const StageTimer timer(log, "links");
-      indirect = sums_.interpolate<float>(irradiance);
+      indirect = sums_.interpolate<float>(gathered);
     }
     FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect, log);
     return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};

@@ -59,6 +59,8 @@ KnobTable knob_table() {
        "Weight of the original values in the refit, in units of each coefficient's own squared response: how much its lights are distrusted."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "direct_shading",
        "Shadows on view and gather samples: shadow maps (paper; GPU only) or exact traced rays; auto: traced if device=cpu, else map."},
+      {"area_light_samples", integer, relight, "16", 1, 4096, {}, "direct_shading",
+       "Points that stand for a rectangle or disc, each with shadows of its own."},
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
        "Texels a side of a shadow map."},
       {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "transfer",

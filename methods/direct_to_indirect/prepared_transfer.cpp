@@ -34,7 +34,8 @@ struct LitSamples {
         view(context.buffer.direct, context.buffer.view.camera.eye),
         lighting(context.gpu, context.scene, context.tracer,
                  {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
-                  static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
+                  static_cast<int>(context.knobs.integer("shadow_map_size")),
+                  static_cast<int>(context.knobs.integer("area_light_samples"))}) {}
 
   DirectLight make() const {
     return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),

@@ -32,7 +32,7 @@ struct LitSamples {
       : gather(cloud.samples, sequential_order(cloud.samples.size()), context.buffer.view.camera.eye),
         view(context.buffer.direct, pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
              context.buffer.view.camera.eye),
-        lighting(context.tracer) {}
+        lighting(context.tracer, static_cast<int>(context.knobs.integer("area_light_samples"))) {}
 
   DirectLight make() const {
     return {std::vector<glm::vec4>(gather.count() * block_lanes),

@@ -43,9 +43,13 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
   }
   if (mask == 0) return;
   if (glossy_) start_glossy(samples, mask);
-  const LanePair scaling = visit(0, 0, mask);
-  coefficients_.push_back({0, scaling.diffuse});
-  if (linked_lobes_) glossy_coefficients_.push_back({0, scaling.glossy});
+  if (linked_lobes_) {
+    const auto scaling = visit<LanePair>(0, 0, mask);
+    coefficients_.push_back({0, scaling.diffuse});
+    glossy_coefficients_.push_back({0, scaling.glossy});
+  } else {
+    coefficients_.push_back({0, visit<DiffuseLanes>(0, 0, mask).diffuse});
+  }
 }
 
 // The tile's lobes: rays at once, links along the walk.
@@ -69,8 +73,9 @@ void TileGather::start_glossy(const std::array<const SurfaceSample*, lanes>& sam
 }
 
 // Returns the scaling coefficient of the cluster's part of each row; appends the details below and at it.
-LanePair TileGather::visit(size_t level, size_t index, uint32_t mask) {
-  if (level + 1 == tree_.levels.size()) return leaf(level, index, mask);
+template <typename Value>
+Value TileGather::visit(size_t level, size_t index, uint32_t mask) {
+  if (level + 1 == tree_.levels.size()) return leaf<Value>(level, index, mask);
   const Cluster& cluster = tree_.levels[level][index];
   // The cell of a near sample may reach into the view where the sample itself is behind or faces away.
   const uint32_t near = with_near_members(level, index, mask);
@@ -78,18 +83,20 @@ LanePair TileGather::visit(size_t level, size_t index, uint32_t mask) {
   if (mask) mask = not_facing_away(cluster, mask);
   mask |= near;
   if (mask == 0) return {};
-  if (!near && !needs_subdivision(cluster, mask)) return link(level, index, mask);
+  if (!near && !needs_subdivision(cluster, mask)) return link<Value>(level, index, mask);
 
-  std::array<LanePair, 4> child;
-  for (size_t c = 0; c < 4; ++c) child[c] = visit(level + 1, 4 * index + c, mask);
+  std::array<Value, 4> child;
+  for (size_t c = 0; c < 4; ++c) child[c] = visit<Value>(level + 1, 4 * index + c, mask);
   const auto node = static_cast<uint32_t>(index), nodes = static_cast<uint32_t>(tree_.levels[level].size());
-  LanePair scaling;
+  Value scaling;
   scaling.diffuse =
       analyse_lanes({&child[0].diffuse, &child[1].diffuse, &child[2].diffuse, &child[3].diffuse}, node, nodes,
                     coefficients_);
-  if (linked_lobes_ & mask)
-    scaling.glossy = analyse_lanes({&child[0].glossy, &child[1].glossy, &child[2].glossy, &child[3].glossy},
-                                   node, nodes, glossy_coefficients_);
+  if constexpr (Value::lobes) {
+    if (linked_lobes_ & mask)
+      scaling.glossy = analyse_lanes({&child[0].glossy, &child[1].glossy, &child[2].glossy, &child[3].glossy},
+                                     node, nodes, glossy_coefficients_);
+  }
   return scaling;
 }
 
@@ -108,10 +115,11 @@ uint32_t TileGather::with_near_members(size_t level, size_t index, uint32_t mask
 
 // A single sample: the near field's element where it is near, elsewhere a link, which tests it exactly. Lobes
 // are linked either way.
-LanePair TileGather::leaf(size_t level, size_t index, uint32_t mask) {
+template <typename Value>
+Value TileGather::leaf(size_t level, size_t index, uint32_t mask) {
   const uint32_t near = with_near_members(level, index, mask);
   const uint32_t linked = mask & (~near | linked_lobes_);
-  LanePair value = linked ? link(level, index, linked) : LanePair{};
+  Value value = linked ? link<Value>(level, index, linked) : Value{};
   const float factor = column_scale_.empty() ? 1.0f : 1.0f / column_scale_[index];
   for (size_t i = 0; i < lanes; ++i)
     if (near >> i & 1u) value.diffuse[i] = find_near(near_[i], index)->value * factor;
@@ -152,13 +160,15 @@ uint32_t TileGather::elements(const GatherPoint& g, Lanes& value) const {
 
 // Evaluates one random member for each lane and takes it for all of them: the scaling coefficient of `size`
 // equal values F is F sqrt(size), and the details inside the cluster are zero.
-LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
+template <typename Value>
+Value TileGather::link(size_t level, size_t index, uint32_t mask) {
   const size_t size = cloud_.samples.size() / tree_.levels[level].size();
   const size_t member = index * size + (size > 1 ? random_member(level, index, size) : 0);
   const GatherPoint& g = tree_.points[member];
-  LanePair value;
+  Value value;
   mask &= elements(g, value.diffuse);
-  if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
+  if constexpr (Value::lobes)
+    if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
   counts_.links += std::popcount(mask);
   counts_.rays += std::popcount(mask);
   const uint32_t visible =
@@ -169,7 +179,7 @@ LanePair TileGather::link(size_t level, size_t index, uint32_t mask) {
   for (size_t i = 0; i < lanes; ++i) {
     const bool seen = visible >> i & 1u;
     value.diffuse[i] = seen ? value.diffuse[i] * factor : 0.0f;
-    value.glossy[i] = seen ? value.glossy[i] * factor : 0.0f;
+    if constexpr (Value::lobes) value.glossy[i] = seen ? value.glossy[i] * factor : 0.0f;
   }
   return value;
 }

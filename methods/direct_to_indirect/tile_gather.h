@@ -32,8 +32,13 @@ struct GatherCounts {
   }
 };
 
-// Values of the diffuse and of the glossy matrix; `glossy` is zero where the walk has no lobes.
+// Values of the diffuse matrix, and of both. A walk of a tile without lobes carries the first kind.
+struct DiffuseLanes {
+  static constexpr bool lobes = false;
+  Lanes diffuse{};
+};
 struct LanePair {
+  static constexpr bool lobes = true;
   Lanes diffuse{}, glossy{};
 };
 
@@ -60,15 +65,18 @@ class TileGather {
 
  private:
   void start_glossy(const std::array<const SurfaceSample*, lanes>& samples, uint32_t mask);
-  LanePair visit(size_t level, size_t index, uint32_t mask);
-  LanePair link(size_t level, size_t index, uint32_t mask);
+  template <typename Value>
+  Value visit(size_t level, size_t index, uint32_t mask);
+  template <typename Value>
+  Value link(size_t level, size_t index, uint32_t mask);
   Lanes glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const;
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
   bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
   bool lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const;
   uint32_t with_near_members(size_t level, size_t index, uint32_t mask) const;
-  LanePair leaf(size_t level, size_t index, uint32_t mask);
+  template <typename Value>
+  Value leaf(size_t level, size_t index, uint32_t mask);
   size_t random_member(size_t level, size_t index, size_t size) const;
   uint32_t elements(const GatherPoint& g, Lanes& value) const;
 

@@ -17,10 +17,14 @@ struct ViewOfRoom {
   DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 48});
   Metric6 metric{scene.bounds.diagonal(), 1.0f};
 
+  Links links(const ViewClusters& clusters, int neighbours) const {
+    return link_pixels(buffer, pixels_with(buffer, Part::diffuse), Part::diffuse, clusters, metric,
+                       neighbours);
+  }
   ViewClusters clusters(size_t wanted) const {
     ClusteringSettings settings;
     settings.clusters = wanted;
-    return cluster_view(buffer, metric, settings);
+    return cluster_view(buffer, pixels_with(buffer, Part::diffuse), metric, settings);
   }
 };
 
@@ -28,34 +32,36 @@ struct ViewOfRoom {
 TEST(Links, WeightsAreNotNegativeAndSumToOne) {
   const ViewOfRoom room;
   const ViewClusters clusters = room.clusters(300);
-  const Links links = link_pixels(room.buffer, clusters, room.metric, 10);
+  const Links links = room.links(clusters, 10);
   ASSERT_EQ(links.per_pixel, 10u);
-  size_t background = 0;
+  size_t next = 0;
   for (size_t p = 0; p < room.buffer.indirect.size(); ++p) {
+    if (!room.buffer.indirect[p].valid) continue;
+    ASSERT_EQ(links.pixel[next], p);
     double sum = 0.0;
-    for (size_t k = 10 * p; k < 10 * p + 10; ++k) {
+    for (size_t k = 10 * next; k < 10 * next + 10; ++k) {
       EXPECT_GE(links.weight[k], 0.0f);
       EXPECT_LT(links.cluster[k], clusters.samples.size());
       sum += static_cast<double>(links.weight[k]);
     }
-    const bool valid = room.buffer.indirect[p].valid;
-    background += !valid;
-    EXPECT_NEAR(sum, valid ? 1.0 : 0.0, 1e-5);
+    EXPECT_NEAR(sum, 1.0, 1e-5);
+    ++next;
   }
-  EXPECT_GT(background, 100u);
+  EXPECT_EQ(links.pixel.size(), next);
+  EXPECT_LT(next, room.buffer.indirect.size());  // there is background
 }
 
 // Red if the normals are left out of the choice: floor pixels near the walls would take from the walls.
 TEST(Links, DoNotLeakAroundEdges) {
   const ViewOfRoom room;
   const ViewClusters clusters = room.clusters(30);
-  const Links links = link_pixels(room.buffer, clusters, room.metric, 10);
-  for (size_t p = 0; p < room.buffer.indirect.size(); ++p)
-    for (size_t k = 10 * p; k < 10 * p + 10; ++k) {
+  const Links links = room.links(clusters, 10);
+  for (size_t i = 0; i < links.pixel.size(); ++i)
+    for (size_t k = 10 * i; k < 10 * i + 10; ++k) {
       if (links.weight[k] == 0.0f) continue;
-      EXPECT_GT(
-          glm::dot(room.buffer.indirect[p].shading_normal, clusters.samples[links.cluster[k]].shading_normal),
-          0.7f);
+      EXPECT_GT(glm::dot(room.buffer.indirect[links.pixel[i]].shading_normal,
+                         clusters.samples[links.cluster[k]].shading_normal),
+                0.7f);
     }
 }
 
@@ -63,12 +69,11 @@ TEST(Links, DoNotLeakAroundEdges) {
 TEST(Links, WithEveryPixelItsOwnClusterAPixelTakesItself) {
   const ViewOfRoom room;
   const ViewClusters clusters = room.clusters(0);
-  const Links links = link_pixels(room.buffer, clusters, room.metric, 1);
+  const Links links = room.links(clusters, 1);
   uint32_t next = 0;
-  for (size_t p = 0; p < room.buffer.indirect.size(); ++p) {
-    if (!room.buffer.indirect[p].valid) continue;
-    EXPECT_EQ(links.cluster[p], next);
-    EXPECT_EQ(links.weight[p], 1.0f);
+  for (const uint32_t p : links.pixel) {
+    EXPECT_EQ(links.cluster[next], next);
+    EXPECT_EQ(links.weight[next], 1.0f);
     EXPECT_EQ(clusters.samples[next++].position, room.buffer.indirect[p].position);
   }
   EXPECT_EQ(next, clusters.samples.size());
@@ -92,7 +97,7 @@ TEST(ViewClusters, OfAViewOfNothingAreNone) {
   for (SurfaceSample& s : room.buffer.indirect) s.valid = false;
   const ViewClusters clusters = room.clusters(50);
   EXPECT_TRUE(clusters.samples.empty());
-  EXPECT_EQ(link_pixels(room.buffer, clusters, room.metric, 10).per_pixel, 0u);
+  EXPECT_EQ(room.links(clusters, 10).per_pixel, 0u);
 }
 
 }  // namespace

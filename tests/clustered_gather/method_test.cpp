@@ -25,7 +25,8 @@ namespace {
 using Knobs = std::vector<std::pair<std::string, std::string>>;
 
 struct Bench {
-  Scene scene = tiny::room();
+  explicit Bench(bool glossy = false) : scene(tiny::room(2.0f, glm::vec3(0.0f), glossy)) {}
+  Scene scene;
   RayTracer tracer{scene};
   DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 40, 30});
   std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
@@ -73,18 +74,35 @@ double relative_difference(const Image& a, const Image& b) {
 // would differ by their shadows, so all three trace them. Red if a link's weight goes to its neighbour, a
 // cluster's samples end one early, or the albedo is applied twice.
 TEST(ClusteredGather, CpuAndGpuAgreeWithTheDoublePrecisionOracle) {
-  Bench bench;
-  const Knobs traced = {{"shadows", "traced"}};
-  const auto with = [&](const char* device) {
-    Knobs knobs = traced;
-    knobs.emplace_back("device", device);
-    return bench.relight(knobs, {lamp, other});
-  };
-  const Relit oracle = with("oracle"), gpu = with("gpu"), cpu = with("cpu");
-  EXPECT_GT(norm(oracle.indirect), 0.0);
-  EXPECT_LT(relative_difference(gpu.indirect, oracle.indirect), 2e-6);
-  EXPECT_LT(relative_difference(cpu.indirect, oracle.indirect), 4e-6);  // shading by another compiler, too
-  EXPECT_LT(relative_difference(cpu.direct, oracle.direct), 4e-6);
+  for (const bool glossy : {false, true}) {
+    Bench bench(glossy);
+    const auto with = [&](const char* device) {
+      return bench.relight({{"shadows", "traced"}, {"device", device}}, {lamp, other});
+    };
+    const Relit oracle = with("oracle"), gpu = with("gpu"), cpu = with("cpu");
+    EXPECT_GT(norm(oracle.indirect), 0.0);
+    EXPECT_LT(relative_difference(gpu.indirect, oracle.indirect), 2e-6);
+    EXPECT_LT(relative_difference(cpu.indirect, oracle.indirect), 4e-6);  // shading by another compiler, too
+    EXPECT_LT(relative_difference(cpu.direct, oracle.direct), glossy ? 2e-5 : 4e-6);
+  }
+}
+
+// Red if something glossy is computed, stored or timed for a view without gloss, or although it is off.
+TEST(ClusteredGather, ComputesNothingGlossyWithoutGloss) {
+  Bench matt, shiny(true);
+  matt.prepare({});
+  EXPECT_EQ(matt.precompute_log.counters().count("glossy_view_clusters"), 0u);
+  EXPECT_EQ(matt.precompute_log.counters().count("glossy_gather_rays"), 0u);
+  shiny.prepare({{"glossy", "off"}});
+  EXPECT_EQ(shiny.precompute_log.counters().count("glossy_gather_rays"), 0u);
+  shiny.prepare({});
+  EXPECT_GT(shiny.precompute_log.counters().at("glossy_gather_rays"), 0);
+  EXPECT_EQ(shiny.precompute_log.counters().at("view_clusters") +
+                shiny.precompute_log.counters().at("glossy_view_clusters"),
+            200);
+  EXPECT_TRUE(shiny.method->light_paths(KnobValues(shiny.method->knobs())).glossy_at_eye);
+  EXPECT_GT(norm(shiny.relight({{"device", "cpu"}}, {lamp}).indirect),
+            1.05 * norm(shiny.relight({{"device", "cpu"}, {"glossy", "off"}}, {lamp}).indirect));
 }
 
 // Every pixel its own cluster, every ray its own sample, one neighbour: a plain Monte Carlo estimate,
