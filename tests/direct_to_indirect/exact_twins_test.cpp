@@ -52,7 +52,7 @@ Image oracle_picture(const GatherSetup& s, const std::vector<uint8_t>& wanted,
 // Every twin at once on some pixels, CPU and GPU, from the paper's knobs and from the farthest from them. The
 // sums of 1,024 products and five Haar levels are in float; their roundings are independent, so the root of
 // 1,000 times 2^-24 is the bound. Red if one of the twins leaves an approximation in (tried: coefficients=0
-// kept nine tenths of them; rows of pixels given to sub-pixels; 16-bit weights).
+// kept a third of them; rows of pixels given to sub-pixels; 16-bit weights).
 TEST(ExactTwins, TogetherAreTheSumOverEveryGatherSample) {
   GatherSetup setup(load_scene("cornell"), width, height, 1024);
   const LightingState lighting = setup.scene.lightings.at("near");
