@@ -2,34 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "common/brdf/brdf.h"
 #include "common/image/luminance.h"
 
 namespace relight {
-namespace {
-
-// Uniform on the unit disc, without seam at the centre (Shirley and Chiu, "A Low Distortion Map Between Disk
-// and Square", JGT 1997).
-glm::vec2 to_disc(const glm::vec2& u) {
-  const float x = 2.0f * u.x - 1.0f, y = 2.0f * u.y - 1.0f;
-  if (x == 0.0f && y == 0.0f) return {0.0f, 0.0f};
-  constexpr float quarter_pi = 0.25f * std::numbers::pi_v<float>;
-  const bool wide = std::abs(x) > std::abs(y);
-  const float r = wide ? x : y;
-  const float phi = wide ? quarter_pi * (y / x) : 2.0f * quarter_pi - quarter_pi * (x / y);
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
-
-}  // namespace
 
 AreaLights::AreaLights(const Scene& scene, const LightingState& lighting, bool triangles, float lift)
     : scene_(scene) {
   if (triangles) add_triangles();
   add_shapes(lighting, lift);
   for (Shape& shape : shapes_)
-    shape.area_pdf = static_cast<float>(luminance(glm::dvec3(shape.light.intensity)) / power_);
+    shape.area_pdf = static_cast<float>(luminance(glm::dvec3(shape.radiance)) / power_);
   for (float& pdf : triangle_pdf_) pdf = static_cast<float>(static_cast<double>(pdf) / power_);
 }
 
@@ -51,17 +34,9 @@ void AreaLights::add_triangles() {
 
 void AreaLights::add_shapes(const LightingState& lighting, float lift) {
   for (const Light& light : lighting.lights) {
-    if (is_delta(light.type) || !(luminance(glm::dvec3(light.intensity)) > 0.0)) continue;
-    Shape shape{light, light.edge_u, light.edge_v, 0.0f};
-    shape.light.direction = glm::normalize(light.direction);
-    shape.light.position += lift * shape.light.direction;
-    if (light.type == LightType::disc) {
-      const glm::mat3 frame = frame_around(shape.light.direction);
-      shape.u = light.radius * frame[0], shape.v = light.radius * frame[1];
-    }
-    const float parallelogram = glm::length(glm::cross(shape.u, shape.v));
-    shape.area = parallelogram * (light.type == LightType::disc ? std::numbers::pi_v<float> : 4.0f);
-    power_ += luminance(glm::dvec3(light.intensity)) * static_cast<double>(shape.area);
+    if (!has_area(light.type) || !(luminance(glm::dvec3(light.intensity)) > 0.0)) continue;
+    const Shape shape{AreaShape(light, lift), light.intensity};
+    power_ += luminance(glm::dvec3(light.intensity)) * static_cast<double>(shape.form.area);
     sources_.push_back({power_, static_cast<uint32_t>(shapes_.size()), true});
     shapes_.push_back(shape);
   }
@@ -75,9 +50,7 @@ AreaPoint AreaLights::sample(float u_choice, const glm::vec2& u) const {
                                       [](double x, const Source& s) { return x < s.cumulative; });
   if (found->is_shape) {
     const Shape& shape = shapes_[found->index];
-    const glm::vec2 at = shape.light.type == LightType::disc ? to_disc(u) : 2.0f * u - glm::vec2(1.0f);
-    return {shape.light.position + at.x * shape.u + at.y * shape.v, shape.light.direction,
-            shape.light.intensity, shape.area_pdf, false};
+    return {shape.form.point(u), shape.form.normal, shape.radiance, shape.area_pdf, false};
   }
   const Triangle& triangle = scene_.triangles[found->index];
   const float root = std::sqrt(u.x), b = root * (1.0f - u.y), c = root * u.y;
@@ -88,19 +61,24 @@ AreaPoint AreaLights::sample(float u_choice, const glm::vec2& u) const {
           scene_.materials[triangle.material].emission, triangle_pdf_[found->index], true};
 }
 
+AreaPoint AreaLights::shape_point(size_t i, const glm::vec2& u) const {
+  const Shape& shape = shapes_[i];
+  return {shape.form.point(u), shape.form.normal, shape.radiance, 1.0f / shape.form.area, false};
+}
+
 bool AreaLights::meets(size_t index, const glm::vec3& origin, const glm::vec3& direction, float t_far,
                        ShapeHit& hit) const {
   const Shape& shape = shapes_[index];
-  const float cosine = -glm::dot(shape.light.direction, direction);
+  const AreaShape& form = shape.form;
+  const float cosine = -glm::dot(form.normal, direction);
   if (!(cosine > 0.0f)) return false;
-  const float t = glm::dot(shape.light.direction, origin - shape.light.position) / cosine;
+  const float t = glm::dot(form.normal, origin - form.centre) / cosine;
   if (!(t > 0.0f && t < t_far)) return false;
-  const glm::vec3 at = origin + t * direction - shape.light.position;
-  const float x = glm::dot(at, shape.u) / glm::dot(shape.u, shape.u),
-              y = glm::dot(at, shape.v) / glm::dot(shape.v, shape.v);
-  const bool inside = shape.light.type == LightType::disc ? x * x + y * y <= 1.0f
-                                                          : std::abs(x) <= 1.0f && std::abs(y) <= 1.0f;
-  if (inside) hit = {shape.light.intensity, t, cosine, shape.area_pdf};
+  const glm::vec3 at = origin + t * direction - form.centre;
+  const float x = glm::dot(at, form.u) / glm::dot(form.u, form.u),
+              y = glm::dot(at, form.v) / glm::dot(form.v, form.v);
+  const bool inside = form.is_disc ? x * x + y * y <= 1.0f : std::abs(x) <= 1.0f && std::abs(y) <= 1.0f;
+  if (inside) hit = {shape.radiance, t, cosine, shape.area_pdf};
   return inside;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "common/lights/light.h"
+#include "common/lights/area_points.h"
 #include "common/scene/scene.h"
 
 namespace relight {
@@ -33,6 +33,9 @@ class AreaLights {
 
   bool empty() const { return sources_.empty(); }
   bool has_shapes() const { return !shapes_.empty(); }
+  // Rectangles and discs one by one: point u of shape i, with density 1/area.
+  size_t shape_count() const { return shapes_.size(); }
+  AreaPoint shape_point(size_t i, const glm::vec2& u) const;
   // Chooses an emitter by u_choice and a point on it by u, all in [0,1).
   AreaPoint sample(float u_choice, const glm::vec2& u) const;
   // Density with which sample() gives a point of this triangle [1/area]; 0 if it doesn't shine.
@@ -50,9 +53,8 @@ class AreaLights {
 
  private:
   struct Shape {
-    Light light;
-    glm::vec3 u, v;  // half edges of the rectangle, or two radii of the disc
-    float area;
+    AreaShape form;
+    glm::vec3 radiance;
     float area_pdf = 0.0f;
   };
   struct Source {

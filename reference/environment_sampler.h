@@ -19,6 +19,7 @@ class EnvironmentSampler {
   explicit EnvironmentSampler(const Environment& environment);
 
   bool empty() const { return rows_.empty(); }
+  const Environment& environment() const { return environment_; }
   // u in [0,1)^2.
   EnvironmentSample sample(const glm::vec2& u) const;
   // Density of sample() at a unit direction.

@@ -14,8 +14,8 @@ enum Dimension : uint64_t { emission_direction = 0, emission_light = 1 };
 LightVertex LightConnector::vertex(const LightRay& ray, const Hit& hit) const {
   LightVertex vertex;
   const SurfaceSample surface = tracer_.surface(hit, ray.direction);
-  vertex.irradiance = shader::light_irradiance(lights_.params(ray.light), surface.position,
-                                               surface.shading_normal, surface.geometric_normal);
+  vertex.irradiance = lights_.emitter(ray.light).irradiance(surface.position, surface.shading_normal,
+                                                            surface.geometric_normal);
   if (black(vertex.irradiance)) return vertex;
   const Segment segment(surface.position, ray.origin);
   vertex.surface = surface;

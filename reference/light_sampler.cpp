@@ -26,15 +26,17 @@ LightSampler::LightSampler(const LightingState& lighting, float scene_diagonal)
     : scene_diagonal_(scene_diagonal) {
   double power = 0.0, shadowed_power = 0.0;
   for (const Light& light : lighting.lights) {
-    if (!is_delta(light.type)) continue;
+    if (has_area(light.type)) continue;
+    require_no_shader(light, "path tracing");
     Entry entry;
-    entry.params = light.params();
-    entry.casts_shadows = light.casts_shadows;
+    entry.emitter = emitter_of(light);
     if (light.type == LightType::spot)
-      entry.one_minus_cosine = 1.0 - static_cast<double>(entry.params.direction_outer.w);
+      entry.one_minus_cosine = 1.0 - static_cast<double>(entry.emitter.params.direction_outer.w);
+    if (has_beam(light.type))
+      entry.one_minus_cosine = 1.0 - std::cos(glm::radians(static_cast<double>(entry.emitter.cone_degrees)));
     // W, up to a factor: intensity x solid angle (a spot's falloff between the cones doesn't matter here).
     // A directional light's power: what passes through a square of the scene's size.
-    const bool directional = light.type == LightType::directional;
+    const bool directional = is_parallel(light.type);
     const double extent =
         directional ? std::pow(static_cast<double>(scene_diagonal), 2) / two_pi : entry.one_minus_cosine;
     const double weight =
@@ -68,9 +70,9 @@ LightRay LightSampler::emit(float u_light, const glm::vec2& u) const {
   const float sine = static_cast<float>(std::sqrt(std::max(0.0, z * (2.0 - z))));
   const float phi = static_cast<float>(two_pi) * u.y;
   const glm::vec3 local(sine * std::cos(phi), sine * std::sin(phi), static_cast<float>(1.0 - z));
-  const bool spot = entry.params.position_type.w > 0.5f;
-  ray.origin = glm::vec3(entry.params.position_type);
-  ray.direction = spot ? frame_around(glm::vec3(entry.params.direction_outer)) * local : local;
+  const bool cone = entry.emitter.cone_degrees < 180.0f;
+  ray.origin = glm::vec3(entry.emitter.params.position_type);
+  ray.direction = cone ? frame_around(glm::vec3(entry.emitter.params.direction_outer)) * local : local;
   ray.directional_pdf = entry.emission_pdf;
   return ray;
 }

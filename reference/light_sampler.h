@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "common/lights/light.h"
+#include "common/lights/emitter.h"
 
 namespace relight {
 
@@ -21,14 +21,13 @@ class LightSampler {
   explicit LightSampler(const LightingState& lighting, float scene_diagonal = 1.0f);
 
   size_t size() const { return lights_.size(); }
-  const shader::LightParams& params(size_t light) const { return lights_[light].params; }
+  const Emitter& emitter(size_t light) const { return lights_[light].emitter; }
   // Where a shadow ray from `from` to the light ends: at the light, or far outside the scene.
   glm::vec3 shadow_ray_end(size_t light, const glm::vec3& from) const {
-    const shader::LightParams& p = lights_[light].params;
-    return p.position_type.w > 1.5f ? from - glm::vec3(p.direction_outer) * (2.0f * scene_diagonal_)
-                                    : glm::vec3(p.position_type);
+    const Emitter& e = lights_[light].emitter;
+    return e.is_directional() ? from - e.axis() * (2.0f * scene_diagonal_) : e.position();
   }
-  bool casts_shadows(size_t light) const { return lights_[light].casts_shadows; }
+  bool casts_shadows(size_t light) const { return lights_[light].emitter.casts_shadows; }
 
   // Next-event estimation goes to every light if there are few, else to one chosen by power with u in [0,1).
   bool all() const { return lights_.size() <= most_lights_for_all; }
@@ -47,8 +46,7 @@ class LightSampler {
  private:
   static constexpr size_t most_lights_for_all = 4;  // a shadow ray costs about as much as choosing well
   struct Entry {
-    shader::LightParams params;
-    bool casts_shadows = true;
+    Emitter emitter;
     bool emits = false;
     double one_minus_cosine = 2.0;  // of the cone of directions; 2 for the sphere
     float probability = 0.0f;       // of choose()

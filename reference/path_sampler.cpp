@@ -30,7 +30,7 @@ PathSampler::PathSampler(const RayTracer& tracer, const LightSampler& lights, co
       connector_(tracer, lights, settings.paths),
       use_light_vertex_(settings.estimator == Estimator::light_vertex && settings.paths.max_bounces >= 1 &&
                         lights.emits()),
-      environment_counts_(settings.paths.environment && !tracer.scene().environment.black()),
+      environment_counts_(settings.paths.environment && !environment.environment().black()),
       sample_extended_lights_(settings.sample_extended_lights) {}
 
 // Strategy "brdf": light reflected by y (found from `distance` away with density `density`) from one light,
@@ -39,7 +39,7 @@ Reflected PathSampler::from_light(const EyeVertex& y, size_t light, float distan
                                   float connections, int64_t& rays) const {
   const SurfaceSample& s = *y.surface;
   const glm::vec3 irradiance =
-      shader::light_irradiance(lights_.params(light), s.position, s.shading_normal, s.geometric_normal);
+      lights_.emitter(light).irradiance(s.position, s.shading_normal, s.geometric_normal);
   if (black(irradiance)) return {};
   const glm::vec3 end = lights_.shadow_ray_end(light, s.position);
   const Segment to_light(s.position, end);

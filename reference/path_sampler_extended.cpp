@@ -36,7 +36,7 @@ void PathSampler::next_event_to_environment(Walk& walk, const glm::vec2& u, int6
   if (black(reflected.sum())) return;
   const SurfaceSample& s = *walk.x.surface;
   const float brdf = brdf_pdf(walk.x.brdf, s.shading_normal, walk.x.wo, sample.direction, false);
-  const glm::vec3 radiance = tracer_.scene().environment.lookup(sample.direction);
+  const glm::vec3 radiance = environment_.environment().lookup(sample.direction);
   const glm::vec3 far = s.position + sample.direction * (2.0f * tracer_.scene().bounds.diagonal());
   ++rays;
   if (tracer_.visible_from_point(s.position, s.geometric_normal, far))
@@ -81,7 +81,7 @@ void PathSampler::hit_emitter(Walk& walk) const {
 void PathSampler::hit_environment(Walk& walk) const {
   const BrdfSample& bounce = walk.bounce;
   const float other = sample_extended_lights_ ? environment_.pdf(bounce.wi) / bounce.pdf : 0.0f;
-  const glm::vec3 radiance = tracer_.scene().environment.lookup(bounce.wi) / (1.0f + other);
+  const glm::vec3 radiance = environment_.environment().lookup(bounce.wi) / (1.0f + other);
   classes_.add(walk.vertex - 1, LightEnd::environment, walk.throughput.emitted(radiance), walk.sums);
 }
 

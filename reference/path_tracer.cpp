@@ -29,6 +29,8 @@ void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   const LightPaths& paths = settings.paths;
   if (paths.min_bounces < 0 || paths.max_bounces < paths.min_bounces)
     fail("path tracer: bounces {}..{}; needed are 0 <= min <= max", paths.min_bounces, paths.max_bounces);
+  if (settings.area_samples < 2 || settings.area_samples % 2 != 0)
+    fail("path tracer: area_samples = {}; it must be even and at least 2", settings.area_samples);
   if (!(settings.time_limit_s >= 0.0))
     fail("path tracer: time_limit_s = {}; it must be >= 0 (0: no limit)", settings.time_limit_s);
   const size_t pixels = static_cast<size_t>(buffer.view.width) * static_cast<size_t>(buffer.view.height);
@@ -42,16 +44,19 @@ bool any_glossy(const Scene& scene) {
                      [](const Material& m) { return m.is_glossy(); });
 }
 
-PathClasses path_classes(const Scene& scene, const PathTracerSettings& settings, const AreaLights& area) {
+PathClasses path_classes(const Scene& scene, const Environment& environment,
+                         const PathTracerSettings& settings, const AreaLights& area) {
   if (settings.class_bounces < 0) return {};
   return PathClasses(settings.class_bounces, settings.paths, any_glossy(scene), !area.empty(),
-                     settings.paths.environment && !scene.environment.black());
+                     settings.paths.environment && !environment.black());
 }
 
 // Restricts classes and direct light to the pattern.
 void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage& direct) {
   if (pattern.empty()) return;
   std::vector<PathClass> all = DirectImage::classes();
+  if (direct.has_area())
+    for (const PathClass& c : DirectImage::area_classes()) all.push_back(c);
   const size_t exact = all.size();
   all.insert(all.end(), classes.classes().begin(), classes.classes().end());
   std::vector<uint8_t> chosen(all.size(), 0);
@@ -59,8 +64,8 @@ void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage
   if (selected.empty())
     fail("light paths: '{}' selects no path that this scene and these bounces have", pattern);
   for (const size_t i : selected) chosen[i] = 1;
-  Image* images[] = {&direct.local_diffuse, &direct.local_glossy, &direct.seen_area,
-                     &direct.seen_environment};
+  Image* images[] = {&direct.local_diffuse,    &direct.local_glossy, &direct.seen_area,
+                     &direct.seen_environment, &direct.area_diffuse, &direct.area_glossy};
   for (size_t i = 0; i < exact; ++i)
     if (!chosen[i]) *images[i] = Image(images[i]->width, images[i]->height);
   classes.select({chosen.begin() + static_cast<std::ptrdiff_t>(exact), chosen.end()});
@@ -158,13 +163,16 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   const Scene& scene = tracer.scene();
   const LightSampler lights(lighting, scene.bounds.diagonal());
   const AreaLights area(scene, lighting, settings.paths.emission, tracer.offset());
-  const EnvironmentSampler environment(scene.environment);
-  PathClasses classes = path_classes(scene, settings, area);
+  const Environment& light_from_afar = lighting.environment_or(scene.environment);
+  const EnvironmentSampler environment(light_from_afar);
+  PathClasses classes = path_classes(scene, light_from_afar, settings, area);
   PathTracerResult result;
   DirectImage direct;
   {
     StageTimer timer(log, "direct");
-    direct = trace_direct(tracer, buffer, lights, settings.paths);
+    const bool area_apart = settings.paths.min_bounces >= 1 && area.has_shapes();
+    direct = trace_direct(tracer, buffer, lights, light_from_afar, settings.paths,
+                          area_apart ? &area : nullptr, settings.area_samples, settings.seed);
     apply_pattern(settings.pattern, classes, direct);
     result.direct = direct.total();
   }
@@ -192,6 +200,8 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   result.relative_standard_error = run.error();
   // Batches of one sequence aren't independent: their spread says nothing about the error.
   write_indirect(state, !settings.one_sequence && state.batches >= 2, result);
+  for (size_t i = 0; direct.has_area() && i < result.indirect_variance.pixels.size(); ++i)
+    result.indirect_variance.pixels[i] += direct.area_variance.pixels[i];
   if (classes.told_apart()) write_layers(state, classes, direct, result);
   report(result, log);
   return result;

@@ -4,8 +4,9 @@
 // What goes where: `direct` holds delta lights (omni, spot, directional) seen from the visible surface (0
 // bounces) and, where LightPaths counts them, emission and environment seen by the camera. `indirect` holds
 // min_bounces..max_bounces bounces. Lights with an area and the environment have no exact direct part: what
-// they send to the visible surface (0 bounces) is sampled, and is part of `indirect` if and only if
-// min_bounces = 0.
+// they send to the visible surface (0 bounces) is sampled, and is part of `indirect` if min_bounces = 0. If
+// not, `direct` holds that of rectangles and discs, by area_samples points, its variance counted in
+// indirect_variance; that of emitting surfaces and the environment is left out.
 //
 // A lobe that LightPaths doesn't allow at a vertex neither reflects nor is sampled there; `direct` always has
 // both lobes.
@@ -62,6 +63,9 @@ struct PathTracerSettings {
   // False: lights with an area and the environment are found by BRDF rays only. Unbiased too, so a check of
   // their sampling; in a closed room of even emission it has no noise at all.
   bool sample_extended_lights = true;
+  // With min_bounces >= 1: points on each rectangle or disc that its direct light is estimated by, for each
+  // of the 2x2 sub-samples; even, >= 2.
+  int area_samples = 64;
   // > 0: stop before the batch that would exceed it; whole batches, direct light included; at least two
   // batches (with one_sequence: one).
   double time_limit_s = 0.0;
@@ -85,9 +89,10 @@ struct PathLayer {
 };
 
 struct PathTracerResult {
-  Image direct;             // exact: traced shadows at the 2x2 sub-pixels, box-filtered; full BRDF
+  // Traced shadows at the 2x2 sub-pixels, box-filtered; full BRDF. Exact but for rectangles and discs.
+  Image direct;
   Image indirect;           // mean
-  Image indirect_variance;  // variance of the mean, per channel; empty with one_sequence
+  Image indirect_variance;  // variance of the mean of direct + indirect, per channel; empty with one_sequence
   int samples_per_pixel = 0, batches = 0;  // actually done
   int64_t rays = 0;
   int64_t non_finite = 0;                // samples replaced by zero; > 0 is a failure to report

@@ -66,6 +66,11 @@ void write_layers(const PathTracerState& state, const PathClasses& classes, cons
   const std::vector<PathClass> exact_classes = DirectImage::classes();
   for (size_t i = 0; i < exact_classes.size(); ++i)
     if (!is_black(*exact[i])) result.layers.push_back({exact_classes[i], *exact[i], zero});
+  if (direct.has_area()) {
+    const std::vector<PathClass> area_classes = DirectImage::area_classes();
+    result.layers.push_back({area_classes[0], direct.area_diffuse, direct.area_variance});
+    if (!is_black(direct.area_glossy)) result.layers.push_back({area_classes[1], direct.area_glossy, zero});
+  }
   for (size_t c = 0; c < classes.classes().size(); ++c)
     result.layers.push_back(sampled_layer(state, classes, c, zero));
 }

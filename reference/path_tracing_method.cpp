@@ -106,6 +106,7 @@ PathTracerSettings settings_of(const KnobValues& knobs, uint64_t seed) {
       knobs.choice("estimator") == "light_vertex" ? Estimator::light_vertex : Estimator::next_event;
   settings.seed = hash_combine(seed, method_seed_stream);
   settings.one_sequence = true;
+  settings.area_samples = 4;  // a sub-sample: direct light must not eat the time of the rest
   const auto samples = static_cast<int>(knobs.integer("samples"));
   if (samples > 0) {
     settings.samples_per_pixel = samples;

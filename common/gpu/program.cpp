@@ -25,8 +25,9 @@ std::string info_log(GLuint id, bool is_shader) {
   return text;
 }
 
-Object compile(GLenum stage, const std::string& path, const std::vector<std::string>& defines) {
-  const ShaderSource source = load_shader(path, defines);
+Object compile(GLenum stage, const std::string& path, const std::vector<std::string>& defines,
+               const std::vector<ReplacedFile>& replaced = {}) {
+  const ShaderSource source = load_shader(path, defines, replaced);
   Object shader(ObjectKind::shader, glCreateShader(stage));
   const char* text = source.text.c_str();
   glShaderSource(shader.id(), 1, &text, nullptr);
@@ -51,8 +52,9 @@ Object link(const std::vector<const Object*>& shaders, const std::string& names)
 
 }  // namespace
 
-Program Program::compute(const std::string& path, const std::vector<std::string>& defines) {
-  const Object shader = compile(GL_COMPUTE_SHADER, path, defines);
+Program Program::compute(const std::string& path, const std::vector<std::string>& defines,
+                         const std::vector<ReplacedFile>& replaced) {
+  const Object shader = compile(GL_COMPUTE_SHADER, path, defines, replaced);
   return Program(link({&shader}, path));
 }
 
@@ -94,6 +96,10 @@ void Program::set(const std::string& name, const glm::vec3& value) const {
 }
 void Program::set(const std::string& name, const glm::vec4& value) const {
   glProgramUniform4fv(id(), location(name), 1, &value.x);
+}
+void Program::set_if_used(const std::string& name, const glm::vec3& value) const {
+  const GLint location = glGetUniformLocation(id(), name.c_str());
+  if (location >= 0) glProgramUniform3fv(id(), location, 1, &value.x);
 }
 void Program::set(const std::string& name, const glm::mat4& value) const {
   glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, &value[0].x);

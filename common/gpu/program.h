@@ -8,12 +8,14 @@
 #include <glm/glm.hpp>
 
 #include "common/gpu/object.h"
+#include "common/gpu/shader_source.h"
 
 namespace relight::gpu {
 
 class Program {
  public:
-  static Program compute(const std::string& path, const std::vector<std::string>& defines = {});
+  static Program compute(const std::string& path, const std::vector<std::string>& defines = {},
+                         const std::vector<ReplacedFile>& replaced = {});
   // `fragment_path` empty: depth only.
   static Program graphics(const std::string& vertex_path, const std::string& fragment_path,
                           const std::vector<std::string>& defines = {});
@@ -29,6 +31,8 @@ class Program {
   void set(const std::string& name, const glm::vec3& value) const;
   void set(const std::string& name, const glm::vec4& value) const;
   void set(const std::string& name, const glm::mat4& value) const;
+  // Nothing happens if the program has no such uniform.
+  void set_if_used(const std::string& name, const glm::vec3& value) const;
   // Runs ceil(items / local_size) workgroups (local_size as declared in the shader) and a storage barrier.
   // Beyond the driver's limit in x (at least 65535 groups) the groups wrap into y: shaders that may see so
   // many items take their index from item_index() in common/gpu/item_index.glsl. Throws std::logic_error on a

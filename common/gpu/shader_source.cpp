@@ -58,7 +58,7 @@ std::string include_path(const std::string& line, const std::string& file, int n
 
 class Expander {
  public:
-  explicit Expander(ShaderSource& out) : out_(out) {}
+  Expander(ShaderSource& out, const std::vector<ReplacedFile>& replaced) : out_(out), replaced_(replaced) {}
 
   void line(const std::string& text, int file, int number) {
     out_.text += text + '\n';
@@ -69,30 +69,40 @@ class Expander {
   // nothing.
   void file(const std::string& path, const std::string& included_from) {
     if (!seen_.insert(path).second) return;
-    std::istringstream lines(read_text(path, included_from));
+    const ReplacedFile* other = find_replaced(path);
+    std::istringstream lines(other ? other->text : read_text(path, included_from));
     const int index = static_cast<int>(out_.files.size());
-    out_.files.push_back(path);
+    const std::string& shown = other ? other->shown_as : path;
+    out_.files.push_back(shown);
     std::string text;
     for (int number = 1; std::getline(lines, text); ++number) {
-      const std::string included = include_path(text, path, number);
+      const std::string included = include_path(text, shown, number);
       if (included.empty()) {
         line(text, index, number);
       } else {
-        file(included, fmt::format("{}:{}: ", path, number));
+        file(included, fmt::format("{}:{}: ", shown, number));
       }
     }
   }
 
  private:
+  const ReplacedFile* find_replaced(const std::string& path) const {
+    for (const ReplacedFile& file : replaced_)
+      if (file.path == path) return &file;
+    return nullptr;
+  }
+
   ShaderSource& out_;
+  const std::vector<ReplacedFile>& replaced_;
   std::set<std::string> seen_;
 };
 
 }  // namespace
 
-ShaderSource load_shader(const std::string& path, const std::vector<std::string>& defines) {
+ShaderSource load_shader(const std::string& path, const std::vector<std::string>& defines,
+                         const std::vector<ReplacedFile>& replaced) {
   ShaderSource source;
-  Expander expander(source);
+  Expander expander(source, replaced);
   expander.line("#version 450 core", -1, 0);
   for (const char* macro : language_macros) expander.line(macro, -1, 0);
   for (const std::string& define : defines) expander.line("#define " + define, -1, 0);

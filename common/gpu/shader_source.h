@@ -27,6 +27,11 @@ struct ShaderSource {
   };
   std::vector<Origin> lines;
 };
-ShaderSource load_shader(const std::string& path, const std::vector<std::string>& defines = {});
+// A file whose place in the source tree another text takes, e.g. code of the user; messages name `shown_as`.
+struct ReplacedFile {
+  std::string path, shown_as, text;
+};
+ShaderSource load_shader(const std::string& path, const std::vector<std::string>& defines = {},
+                         const std::vector<ReplacedFile>& replaced = {});
 
 }  // namespace relight::gpu

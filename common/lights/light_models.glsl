@@ -1,11 +1,11 @@
 // Light models, one source for C++ (GLM) and GLSL; see common/glsl_in_cpp.h for the subset.
 // Omni: constant intensity. Spot: cosine-smoothstep between the inner and outer cone. Directional: parallel light.
-// Lights with an area are sampled point by point (reference/area_lights.h) and have no form here.
+// A light with an area is a sum of its points (emitter.h), each of which shines with the cosine to its normal.
 #ifndef RELIGHT_LIGHT_MODELS
 #define RELIGHT_LIGHT_MODELS
 
 struct LightParams {
-  vec4 position_type;     // xyz position [scene units]; w: 0 omni, 1 spot, 2 directional
+  vec4 position_type;     // xyz position [scene units]; w: 0 omni, 1 spot, 2 directional, -1 point of an area
   vec4 direction_outer;   // xyz unit axis; w: cosine of the outer half-angle
   vec4 intensity_inner;   // xyz intensity [W/sr], directional: irradiance [W/m^2]; w: cosine of the inner half-angle
 };
@@ -13,13 +13,20 @@ struct LightParams {
 // Intensity [W/sr] leaving the light along the unit direction `away`.
 RL_FUNCTION vec3 light_intensity(LightParams light, vec3 away) {
   vec3 intensity = vec3(light.intensity_inner);
+  float cosine = dot(vec3(light.direction_outer), away);
   if (light.position_type.w > 0.5f && light.position_type.w < 1.5f) {
-    float cosine = dot(vec3(light.direction_outer), away);
     float t = clamp((cosine - light.direction_outer.w) / (light.intensity_inner.w - light.direction_outer.w),
                     0.0f, 1.0f);
     intensity = intensity * (t * t * (3.0f - 2.0f * t));
   }
+  if (light.position_type.w < -0.5f) intensity = intensity * max(cosine, 0.0f);
   return intensity;
+}
+
+// Unit direction from a point to the light.
+RL_FUNCTION vec3 light_direction(LightParams light, vec3 position) {
+  if (light.position_type.w > 1.5f) return -vec3(light.direction_outer);
+  return normalize(vec3(light.position_type) - position);
 }
 
 // Unshadowed irradiance [W/m^2] of a surface point with unit shading normal ns and geometric normal ng (both on

@@ -19,4 +19,7 @@ LightType light_type_of(const std::string& name);
 // Stored references and cached pictures are known by it: another wording makes all of them stale.
 std::string describe(const Light& light);
 
+// The lights of a lighting, a line each, with their keyframes.
+std::string describe(const LightingState& lighting);
+
 }  // namespace relight

@@ -144,8 +144,8 @@ GatherCloud make_gather_cloud(const RayTracer& tracer, std::vector<SurfacePiece>
   return cloud;
 }
 
-GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                                       CloudSampling sampling, int bounces, int64_t budget, uint64_t seed) {
+GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const CloudView& view, CloudSampling sampling,
+                                       int64_t budget, uint64_t seed) {
   const Scene& scene = tracer.scene();
   double surface = 0.0;
   for (size_t t = 0; t < scene.triangles.size(); ++t)
@@ -153,7 +153,7 @@ GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const DeepFrameB
   if (!(surface > 0.0)) fail("gather cloud: scene '{}' has no surface with an area", scene.name);
   const double cell_area = samples_a_cell * surface / static_cast<double>(budget);
   std::vector<SurfacePiece> pieces = cut_surfaces(scene, 0.25 * cell_area);
-  const ImportanceMap map(tracer, buffer, bounces, particle_hits / bounces,
+  const ImportanceMap map(tracer, view, particle_hits / view.bounces,
                           static_cast<float>(std::sqrt(cell_area)), seed);
   apply_importance(pieces, map, least_importance, sampling == CloudSampling::uniform);
   return make_gather_cloud(tracer, pieces, budget, seed);

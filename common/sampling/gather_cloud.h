@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/sampling/importance_map.h"
 #include "common/sampling/surface_pieces.h"
 #include "common/sampling/surface_sample.h"
 #include "common/tracing/ray_tracer.h"
@@ -28,9 +29,8 @@ GatherCloud make_gather_cloud(const RayTracer& tracer, std::vector<SurfacePiece>
 enum class CloudSampling { uniform, importance };
 
 // Gather cloud for a view. uniform: spread evenly over every surface that particles from the view reach;
-// importance: in proportion to their density. `bounces`: how many the light paths behind the view samples
-// have.
-GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                                       CloudSampling sampling, int bounces, int64_t budget, uint64_t seed);
+// importance: in proportion to their density.
+GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const CloudView& view, CloudSampling sampling,
+                                       int64_t budget, uint64_t seed);
 
 }  // namespace relight

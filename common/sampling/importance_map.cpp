@@ -28,24 +28,42 @@ int main_axis(const glm::vec3& n) {
   return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
 }
 
+struct Scattered {
+  glm::vec3 direction;
+  float reflected;  // luminance of BRDF x cosine / density
+};
+
+// A direction by the whole BRDF of a view sample.
+Scattered scatter(const SurfaceSample& at, const glm::vec3& eye, float u_lobe, const glm::vec2& u) {
+  const glm::vec3 n = at.shading_normal, wo = glm::normalize(eye - at.position);
+  const BrdfSample sample = sample_brdf(at.brdf(), n, wo, u_lobe, u, false);
+  const float cosine = glm::dot(n, sample.wi);
+  if (!(sample.pdf > 0.0f) || !(cosine > 0.0f)) return {n, 0.0f};
+  return {sample.wi, luminance(shader::brdf_eval(at.brdf(), n, wo, sample.wi)) * cosine / sample.pdf};
+}
+
 }  // namespace
 
-ImportanceMap::ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buffer, int bounces,
-                             int64_t particles, float cell, uint64_t seed)
+ImportanceMap::ImportanceMap(const RayTracer& tracer, const CloudView& view, int64_t particles, float cell,
+                             uint64_t seed)
     : scene_(tracer.scene()),
       cell_(cell),
       component_(connected_components(weld_positions(tracer.scene().positions), tracer.scene().triangles)) {
-  const auto length = static_cast<size_t>(bounces);
+  const DeepFrameBuffer& buffer = view.buffer;
+  const auto length = static_cast<size_t>(view.bounces);
   std::vector<Particle> hits(static_cast<size_t>(particles) * length, Particle{0, 0, 0.0f});
   const auto shoot = [&](int64_t p) {
     const auto number = static_cast<uint64_t>(p);
     SurfaceSample at = buffer.indirect[random_bits(seed, stream, number, 0) % buffer.indirect.size()];
     float weight = 1.0f;
     for (size_t b = 0; b < length && at.valid; ++b) {
-      weight *= luminance(at.diffuse);
       const glm::vec2 u(random_float(seed, stream, number, 2 * b + 1),
                         random_float(seed, stream, number, 2 * b + 2));
-      const glm::vec3 direction = sample_cosine(at.shading_normal, u);
+      const bool lobes = b == 0 && view.glossy && at.glossy != glm::vec3(0.0f);
+      const auto [direction, reflected] =
+          lobes ? scatter(at, buffer.view.camera.eye, random_float(seed, stream, number, 2 * length + 1), u)
+                : Scattered{sample_cosine(at.shading_normal, u), luminance(at.diffuse)};
+      weight *= reflected;
       if (!(weight > 0.0f) || glm::dot(direction, at.geometric_normal) <= 0.0f) return;
       const Hit hit = tracer.intersect(tracer.offset_point(at.position, at.geometric_normal), direction);
       if (!hit.valid) return;

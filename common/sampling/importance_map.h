@@ -17,6 +17,13 @@
 
 namespace relight {
 
+// What gathers from the gather cloud.
+struct CloudView {
+  const DeepFrameBuffer& buffer;
+  int bounces = 1;      // of the light paths behind the view samples
+  bool glossy = false;  // do view samples gather by their glossy lobes, too?
+};
+
 // Particles are counted in bins: connected component and side of the surface x cell of a cubic grid x one of
 // six normal directions (axis and sign); cell and normal keep the inner walls of a building apart from its
 // outer ones. Whether a place was reached at all is kept for 32 layers of each cell along that axis, so that
@@ -24,11 +31,11 @@ namespace relight {
 // one component and orientation closer than a layer.
 class ImportanceMap {
  public:
-  // Shoots `particles` rays from random view samples, cosine-distributed, each followed for `bounces` hits
-  // with its weight multiplied by the luminance of the diffuse albedos passed. cell: edge of the grid's cells
-  // [scene units]. Deterministic for any number of threads.
-  ImportanceMap(const RayTracer& tracer, const DeepFrameBuffer& buffer, int bounces, int64_t particles,
-                float cell, uint64_t seed);
+  // Shoots `particles` rays from random view samples, cosine-distributed, each followed for view.bounces hits
+  // with its weight multiplied by the luminance of the diffuse albedos passed; with view.glossy, those from
+  // glossy view samples follow the whole BRDF towards the eye. cell: edge of the grid's cells [scene units].
+  // Deterministic for any number of threads.
+  ImportanceMap(const RayTracer& tracer, const CloudView& view, int64_t particles, float cell, uint64_t seed);
 
   // Number of the bin of a point on one side of a triangle (flipped: the side away from its area normal).
   uint64_t bin(const glm::vec3& position, uint32_t triangle, bool flipped) const;

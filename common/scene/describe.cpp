@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lights/light_animation.h"
 #include "common/lights/light_words.h"
 #include "common/scene/scene_file.h"
 #include "common/scene/topology.h"
@@ -85,6 +86,22 @@ void describe_surfaces(const Scene& scene, std::string& text) {
   for (const Texture& t : scene.textures) fmt::format_to(out, "  {} ({} x {})\n", t.file, t.width, t.height);
 }
 
+std::string describe_time(const LightingState& lighting) {
+  if (!lighting.animation) return {};
+  return fmt::format("   animated from {:.4g} to {:.4g} s", lighting.animation->first_time(),
+                     lighting.animation->last_time());
+}
+
+void describe_motion(const LightingState& lighting, size_t light, std::string& text) {
+  if (!lighting.animation) return;
+  for (const AnimatedLight& animated : lighting.animation->lights) {
+    if (animated.light != light) continue;
+    for (const LightTrack& track : animated.tracks)
+      fmt::format_to(std::back_inserter(text), ", {} by {} keyframes{}", track.field, track.times.size(),
+                     track.spline ? " (spline)" : "");
+  }
+}
+
 void describe_lighting(const Scene& scene, std::string& text) {
   const auto out = std::back_inserter(text);
   const Environment& e = scene.environment;
@@ -100,13 +117,15 @@ void describe_lighting(const Scene& scene, std::string& text) {
                  show(scene.camera.target), scene.camera.fov_y_degrees);
   fmt::format_to(out, "lightings      {}\n", scene.lightings.size());
   for (const auto& [name, lighting] : scene.lightings) {
-    fmt::format_to(out, "  {}\n", name);
-    for (const Light& light : lighting.lights) {
+    fmt::format_to(out, "  {}{}\n", name, describe_time(lighting));
+    for (size_t i = 0; i < lighting.lights.size(); ++i) {
+      const Light& light = lighting.lights[i];
       fmt::format_to(out, "    {} at {}, intensity {}", to_string(light.type), show(light.position),
                      show(light.intensity));
       if (light.type == LightType::spot)
         fmt::format_to(out, ", towards {}, {:.4g} to {:.4g} degrees", show(light.direction),
                        light.inner_degrees, light.outer_degrees);
+      describe_motion(lighting, i, text);
       text += '\n';
     }
   }

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "common/lights/environment.h"
 #include "common/lights/light.h"
 #include "common/scene/camera.h"
 #include "common/scene/material.h"
@@ -28,20 +29,6 @@ struct Bounds {
   void add(const glm::vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
   glm::vec3 centre() const { return 0.5f * (lo + hi); }
   float diagonal() const { return lo.x > hi.x ? 0.0f : glm::length(hi - lo); }
-};
-
-// Radiance arriving from directions that hit nothing [W/(m^2 sr)]. Constant, or a latitude-longitude map
-// (y up, u = 0.5 + atan2(x, -z)/(2 pi), v = acos(y)/pi from the top row) turned by rotation_y radians about
-// y.
-struct Environment {
-  glm::vec3 radiance{0.0f};  // constant radiance, or the multiplier of the map
-  std::string file;          // empty: constant
-  float rotation_y = 0.0f;
-  int width = 0, height = 0;
-  std::vector<glm::vec3> texels;
-  bool black() const { return radiance == glm::vec3(0.0f); }
-  // Radiance from unit direction d, bilinear in the map.
-  glm::vec3 lookup(const glm::vec3& d) const;
 };
 
 // What loading changed or found out; printed by `relight scene info` and stored in run records.

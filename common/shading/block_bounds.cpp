@@ -19,21 +19,23 @@ float largest_product(float a_low, float a_high, float b_low, float b_high) {
 
 }  // namespace
 
-BlockCulling::BlockCulling(const shader::LightParams& light)
-    : position_(light.position_type),
-      axis_(light.direction_outer),
-      spot_(light.position_type.w > 0.5f),
-      cos_outer_(light.direction_outer.w - cosine_margin),
+BlockCulling::BlockCulling(const Emitter& light)
+    : position_(light.position()),
+      axis_(light.axis()),
+      directional_(light.is_directional()),
+      cone_(light.cone_degrees < 180.0f),
+      cos_outer_(static_cast<float>(std::cos(glm::radians(double{light.cone_degrees}))) - cosine_margin),
       sin_outer_(std::sqrt(std::max(0.0f, 1.0f - cos_outer_ * cos_outer_))) {}
 
 bool BlockCulling::may_be_lit(const BlockBounds& bounds) const {
   if (bounds.empty()) return false;
-  return !all_face_away(bounds) && !(spot_ && outside_cone(bounds));
+  return !all_face_away(bounds) && !(cone_ && outside_cone(bounds));
 }
 
-// Interval arithmetic on dot(normal, light - position).
+// Interval arithmetic on dot(normal, light - position), or on dot(normal, -axis).
 bool BlockCulling::all_face_away(const BlockBounds& bounds) const {
-  const glm::vec3 to_low = position_ - bounds.high, to_high = position_ - bounds.low;
+  const glm::vec3 to_low = directional_ ? -axis_ : position_ - bounds.high,
+                  to_high = directional_ ? -axis_ : position_ - bounds.low;
   const glm::vec3 farthest = glm::max(glm::abs(to_low), glm::abs(to_high));
   float largest = 0.0f;
   for (int c = 0; c < 3; ++c)

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "common/lights/light.h"
+#include "common/lights/emitter.h"
 
 namespace relight {
 
@@ -24,11 +24,11 @@ struct BlockBounds {
   bool empty() const { return !(low.x <= high.x); }
 };
 
-// Tests blocks against one omni or spot light.
+// Tests blocks against one light.
 class BlockCulling {
  public:
-  explicit BlockCulling(const shader::LightParams& light);
-  // False only if light_irradiance is zero for all samples within the bounds.
+  explicit BlockCulling(const Emitter& light);
+  // False only if the light's irradiance is zero for all samples within the bounds.
   bool may_be_lit(const BlockBounds& bounds) const;
 
  private:
@@ -36,7 +36,7 @@ class BlockCulling {
   bool outside_cone(const BlockBounds& bounds) const;
 
   glm::vec3 position_, axis_;
-  bool spot_;
+  bool directional_, cone_;
   float cos_outer_, sin_outer_;  // of a slightly wider cone
 };
 

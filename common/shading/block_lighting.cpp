@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/shading/non_finite_report.h"
+#include "common/shading/traced_visibility.h"
 #include "common/tracing/ray_tracer.h"
 
 namespace relight {
@@ -21,15 +22,14 @@ struct Work {
   int64_t rays = 0, culled = 0;
 };
 
-LaneMask unoccluded(const RayTracer& tracer, const SampleBlock& block, const glm::vec3& light,
-                    LaneMask lanes) {
+LaneMask unoccluded(const RayTracer& tracer, const SampleBlock& block, const Emitter& light, LaneMask lanes) {
   glm::vec3 origins[block_lanes];
   for (size_t i = 0; i < block_lanes; ++i) {
     const auto at = [i](const float(&v)[3][block_lanes]) { return glm::vec3(v[0][i], v[1][i], v[2][i]); };
     // A lit sample faces the light.
     origins[i] = tracer.offset_point(at(block.position), at(block.geometric_normal));
   }
-  return tracer.visible16(origins, light, lanes);
+  return visible16(tracer, origins, light, lanes);
 }
 
 void add_means(const BlockRgb& value, size_t lanes_per_value, bool add, glm::vec4* out) {
@@ -62,23 +62,24 @@ void BlockLighting::shade(std::span<const Light> lights, const std::vector<Reque
   NonFinite bad;
   for (const Light& light : lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
-    require_omni_or_spot(light);
-    {
-      const StageTimer timer(log, "shadow_rays");
-      find_visible(light, requests, log);
+    require_no_shader(light, "direct lighting on the CPU");
+    for (const Emitter& emitter : emitters_of(light, area_light_samples_, tracer_.offset())) {
+      {
+        const StageTimer timer(log, "shadow_rays");
+        find_visible(emitter, requests, log);
+      }
+      const StageTimer timer(log, "direct_shading");
+      shade_emitter(emitter, requests, add, bad);
+      add = true;
     }
-    const StageTimer timer(log, "direct_shading");
-    shade_light(light, requests, add, bad);
-    add = true;
   }
   if (!add)
     for (const Request& r : requests) std::fill(r.out.begin(), r.out.end(), glm::vec4(0.0f));
   if (bad.count > 0) report_non_finite_shading(bad.count, bad.first, log);
 }
 
-void BlockLighting::find_visible(const Light& light, const std::vector<Request>& requests, StageLog& log) {
-  const shader::LightParams params = light.params();
-  const BlockCulling culling(params);
+void BlockLighting::find_visible(const Emitter& light, const std::vector<Request>& requests, StageLog& log) {
+  const BlockCulling culling(light);
   for (size_t r = 0; r < requests.size(); ++r) {
     const SampleBlocks& samples = *requests[r].samples;
     std::vector<uint16_t>& visible = visible_[r];
@@ -90,10 +91,10 @@ void BlockLighting::find_visible(const Light& light, const std::vector<Request>&
           ++work.culled;
           continue;
         }
-        const LaneMask lit = lit_lanes(params, samples.geometry(b));
+        const LaneMask lit = lit_lanes(light, samples.geometry(b));
         if (lit == 0) continue;
         visible[b] = static_cast<uint16_t>(
-            light.casts_shadows ? unoccluded(tracer_, samples.geometry(b), light.position, lit) : lit);
+            light.casts_shadows ? unoccluded(tracer_, samples.geometry(b), light, lit) : lit);
         if (light.casts_shadows) work.rays += std::popcount(lit);
       }
       return work;
@@ -108,9 +109,8 @@ void BlockLighting::find_visible(const Light& light, const std::vector<Request>&
   }
 }
 
-void BlockLighting::shade_light(const Light& light, const std::vector<Request>& requests, bool add,
-                                NonFinite& bad) const {
-  const shader::LightParams params = light.params();
+void BlockLighting::shade_emitter(const Emitter& light, const std::vector<Request>& requests, bool add,
+                                  NonFinite& bad) const {
   for (size_t r = 0; r < requests.size(); ++r) {
     const Request& request = requests[r];
     const SampleBlocks& samples = *request.samples;
@@ -124,7 +124,7 @@ void BlockLighting::shade_light(const Light& light, const std::vector<Request>& 
           continue;
         }
         BlockRgb radiance;
-        for (LaneMask rest = reflected(params, samples, b, request.lobes, visible, radiance); rest != 0;
+        for (LaneMask rest = reflected(light, samples, b, request.lobes, visible, radiance); rest != 0;
              rest &= rest - 1) {
           ++found.count;
           found.first =

@@ -14,12 +14,12 @@ namespace relight {
 using LaneMask = uint32_t;
 
 // Lanes whose unshadowed irradiance is not black.
-LaneMask lit_lanes(const shader::LightParams& light, const SampleBlock& block);
+LaneMask lit_lanes(const Emitter& light, const SampleBlock& block);
 
 // out = radiance that the lanes in `visible` reflect of the light [W/(m^2 sr)], black in the others; equal
 // bit by bit to what shade_direct_cpu gives for one light. Returns the lanes whose radiance is not finite;
 // they are black in `out`.
-LaneMask reflected(const shader::LightParams& light, const SampleBlocks& blocks, size_t block, Lobes lobes,
+LaneMask reflected(const Emitter& light, const SampleBlocks& blocks, size_t block, Lobes lobes,
                    LaneMask visible, BlockRgb& out);
 
 }  // namespace relight

@@ -22,11 +22,10 @@ class CachedDirectLight {
   explicit CachedDirectLight(Result result) : fresh_(std::move(result)) {}
 
   // The light of `lighting`; valid until the next call. Equal to shading everything afresh except for the
-  // rounding of sums in another order: 2^-23 of the sum of the lights' radiances for each light. Throws Error
-  // for a light that is neither omni nor spot. Counts lights_shaded and lights_cached.
+  // rounding of sums in another order: 2^-23 of the sum of the lights' radiances for each light. Counts
+  // lights_shaded and lights_cached.
   template <typename Shader>
   const Result& shade(Shader& shader, const LightingState& lighting, StageLog& log) {
-    for (const Light& light : lighting.lights) require_omni_or_spot(light);
     const LightCache::Plan plan = cache_.plan(lighting);
     const Result& result = plan.uses_sum() ? from_sum(shader, plan, log) : fresh(shader, plan, log);
     cache_.done();

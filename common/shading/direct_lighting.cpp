@@ -19,7 +19,7 @@ namespace {
 constexpr int local_size = 64;
 constexpr uint32_t no_index = std::numeric_limits<uint32_t>::max();
 constexpr int radiance_binding = 1, visibility_binding = 2, report_binding = 3;
-constexpr int samples_unit = 1, shapes_unit = 2;  // ShadowMaps has texture unit 0
+constexpr int samples_unit = 1, shapes_unit = 2, slide_unit = 3;  // ShadowMaps has texture unit 0
 
 // What a set needs of the shader; unused code is left out, because a software rasteriser runs both sides of
 // every branch.
@@ -30,11 +30,50 @@ Variant variant_of(const DirectLighting::Request& request) {
   return request.samples->has_shapes() ? Variant::all_models : Variant::phong;
 }
 
-gpu::Program compile(Variant variant, Shadows shadows) {
-  return gpu::Program::compute("common/shading/direct_lighting.glsl",
-                               {shadows == Shadows::map ? "SHADOW_MAPS 1" : "SHADOW_MAPS 0",
-                                variant == Variant::diffuse ? "ALL_LOBES 0" : "ALL_LOBES 1",
-                                variant == Variant::all_models ? "SHAPES 1" : "SHAPES 0"});
+// Which code a set and a light need.
+struct ProgramKey {
+  Variant variant;
+  bool beam;
+  uint64_t user_shader;  // its content; 0: none
+  auto operator<=>(const ProgramKey&) const = default;
+};
+
+gpu::Program compile(const ProgramKey& key, Shadows shadows, const UserLight* user) {
+  const Variant variant = key.variant;
+  std::vector<gpu::ReplacedFile> replaced;
+  if (user) replaced.push_back({"common/lights/user_light.glsl", user->shader->file, user->shader->text});
+  return gpu::Program::compute(
+      "common/shading/direct_lighting.glsl",
+      {shadows == Shadows::map ? "SHADOW_MAPS 1" : "SHADOW_MAPS 0", key.beam ? "BEAM 1" : "BEAM 0",
+       user ? "USER_LIGHT 1" : "USER_LIGHT 0", variant == Variant::diffuse ? "ALL_LOBES 0" : "ALL_LOBES 1",
+       variant == Variant::all_models ? "SHAPES 1" : "SHAPES 0"},
+      replaced);
+}
+
+// A slide as shaders read it.
+struct SlideTexels {
+  gpu::Buffer texels;
+  gpu::TexelView view;
+  explicit SlideTexels(const Slide& slide)
+      : texels(gpu::Buffer::from(slide.texels)), view(texels, gpu::TexelView::Format::rgba32f) {}
+};
+
+void set_beam(const gpu::Program& program, const shader::BeamParams& beam) {
+  program.set("beam_right_width", beam.right_width);
+  program.set("beam_up_height", beam.up_height);
+  program.set("beam_forward_roundness", beam.forward_roundness);
+  program.set("beam_edges_shear", beam.edges_shear);
+  program.set("beam_cuts", beam.cuts);
+  program.set("beam_falloff_slide", beam.falloff_slide);
+}
+
+// A user's shader may leave parameters unused, whose uniforms then don't exist.
+void set_user_light(const gpu::Program& program, const UserLight& user) {
+  for (size_t i = 0; i < user.parameters.size(); ++i)
+    program.set_if_used("user_parameters[" + std::to_string(i) + "]", user.parameters[i]);
+  program.set_if_used("user_right", user.axes[0]);
+  program.set_if_used("user_up", user.axes[1]);
+  program.set_if_used("user_forward", user.axes[2]);
 }
 
 }  // namespace
@@ -44,7 +83,8 @@ struct DirectLighting::Impl {
   const RayTracer& tracer;
   DirectLightingSettings settings;
   std::optional<ShadowMaps> maps;
-  std::map<Variant, gpu::Program> programs;  // compiled when first needed
+  std::map<ProgramKey, gpu::Program> programs;  // compiled when first needed
+  std::map<uint64_t, SlideTexels> slides;       // on the GPU, by content
   gpu::Buffer report{2 * sizeof(uint32_t)};
 
   Impl(gpu::Context& context, const Scene& scene, const RayTracer& ray_tracer,
@@ -53,11 +93,12 @@ struct DirectLighting::Impl {
     if (s.shadows == Shadows::map) maps.emplace(scene, s.shadow_map_size);
   }
 
-  const gpu::Program& program_for(const Request& request);
-  void shade_light(const Light& light, bool first, const std::vector<Request>& requests, StageLog& log);
-  void set_light(const gpu::Program& program, const Light& light, bool first) const;
+  const gpu::Program& program_for(const Request& request, const Emitter& light);
+  void bind_slide(const Slide& slide);
+  void shade_emitter(const Emitter& light, bool first, const std::vector<Request>& requests, StageLog& log);
+  void set_light(const gpu::Program& program, const Emitter& light, bool first) const;
   void shade_set(const gpu::Program& program, const Request& request, const gpu::Buffer* visibility) const;
-  std::vector<gpu::Buffer> trace(const Light& light, const std::vector<Request>& requests,
+  std::vector<gpu::Buffer> trace(const Emitter& light, const std::vector<Request>& requests,
                                  StageLog& log) const;
   void check_report(StageLog& log) const;
 };
@@ -90,9 +131,11 @@ void DirectLighting::shade(std::span<const Light> lights, const std::vector<Requ
   bool first = onto == Onto::nothing;
   for (const Light& light : lights) {
     if (light.intensity == glm::vec3(0.0f)) continue;
-    require_omni_or_spot(light);
-    impl_->shade_light(light, first, requests, log);
-    first = false;
+    for (const Emitter& emitter :
+         emitters_of(light, impl_->settings.area_light_samples, impl_->tracer.offset())) {
+      impl_->shade_emitter(emitter, first, requests, log);
+      first = false;
+    }
   }
   if (first) {
     for (const Request& r : requests) r.out->clear();
@@ -101,8 +144,9 @@ void DirectLighting::shade(std::span<const Light> lights, const std::vector<Requ
   gpu::check_gl("direct lighting");
 }
 
-void DirectLighting::Impl::shade_light(const Light& light, bool first, const std::vector<Request>& requests,
-                                       StageLog& log) {
+void DirectLighting::Impl::shade_emitter(const Emitter& light, bool first,
+                                         const std::vector<Request>& requests, StageLog& log) {
+  if (light.beam) bind_slide(*light.beam->slide);
   std::vector<gpu::Buffer> visibility;
   LightFrame frame;
   if (light.casts_shadows && maps) {
@@ -116,7 +160,7 @@ void DirectLighting::Impl::shade_light(const Light& light, bool first, const std
   }
   const StageTimer timer(log, "direct_shading");
   for (size_t i = 0; i < requests.size(); ++i) {
-    const gpu::Program& program = program_for(requests[i]);
+    const gpu::Program& program = program_for(requests[i], light);
     set_light(program, light, first);
     if (light.casts_shadows && maps) maps->bind(program, frame, tracer.offset());
     shade_set(program, requests[i], visibility.empty() ? nullptr : &visibility[i]);
@@ -125,14 +169,22 @@ void DirectLighting::Impl::shade_light(const Light& light, bool first, const std
   gpu::finish();
 }
 
-const gpu::Program& DirectLighting::Impl::program_for(const Request& request) {
-  const Variant variant = variant_of(request);
-  const auto found = programs.find(variant);
+const gpu::Program& DirectLighting::Impl::program_for(const Request& request, const Emitter& light) {
+  const ProgramKey key{variant_of(request), light.beam != nullptr,
+                       light.user ? light.user->shader->content_hash : 0};
+  const auto found = programs.find(key);
   if (found != programs.end()) return found->second;
-  return programs.emplace(variant, compile(variant, settings.shadows)).first->second;
+  return programs.emplace(key, compile(key, settings.shadows, light.user.get())).first->second;
 }
 
-std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const std::vector<Request>& requests,
+void DirectLighting::Impl::bind_slide(const Slide& slide) {
+  auto found = slides.find(slide.content_hash);
+  if (found == slides.end()) found = slides.emplace(slide.content_hash, slide).first;
+  found->second.view.bind(slide_unit);
+}
+
+std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Emitter& light,
+                                                     const std::vector<Request>& requests,
                                                      StageLog& log) const {
   std::vector<gpu::Buffer> visibility;
   int64_t rays = 0;
@@ -143,11 +195,12 @@ std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Light& light, const s
   return visibility;
 }
 
-void DirectLighting::Impl::set_light(const gpu::Program& program, const Light& light, bool first) const {
-  const shader::LightParams params = light.params();
-  program.set("light_position_type", params.position_type);
-  program.set("light_direction_outer", params.direction_outer);
-  program.set("light_intensity_inner", params.intensity_inner);
+void DirectLighting::Impl::set_light(const gpu::Program& program, const Emitter& light, bool first) const {
+  program.set("light_position_type", light.params.position_type);
+  program.set("light_direction_outer", light.params.direction_outer);
+  program.set("light_intensity_inner", light.params.intensity_inner);
+  if (light.beam) set_beam(program, light.beam->params);
+  if (light.user) set_user_light(program, *light.user);
   program.set("first_light", first ? 1 : 0);
   program.set("shadowed", light.casts_shadows ? 1 : 0);
 }

@@ -2,7 +2,17 @@
 // left unless `first_light`. The light model and the BRDF are the sources that the CPU compiles too.
 #include "common/gpu/item_index.glsl"
 #include "common/lights/light_models.glsl"
+#if BEAM
+#include "common/lights/beam.glsl"
+layout(binding = 3) uniform samplerBuffer slide;
+uniform vec4 beam_right_width, beam_up_height, beam_forward_roundness, beam_edges_shear, beam_cuts, beam_falloff_slide;
+#endif
 #include "common/brdf/brdf.glsl"
+#if USER_LIGHT
+#include "common/lights/user_light.glsl"
+uniform vec3 user_parameters[8];
+uniform vec3 user_right, user_up, user_forward;
+#endif
 #if SHADOW_MAPS
 #include "common/shading/shadow_map.glsl"
 #endif
@@ -53,7 +63,7 @@ uniform vec4 light_position_type, light_direction_outer, light_intensity_inner;
 float visible(uint i, vec3 position, vec3 ng) {
   if (shadowed == 0) return 1.0;
 #if SHADOW_MAPS
-  return shadow_map_visibility(position - light_position_type.xyz, ng);
+  return shadow_map_visibility(position - shadow_origin, ng);
 #else
   return float((visibility[i >> 5] >> (i & 31u)) & 1u);
 #endif
@@ -67,10 +77,22 @@ vec3 reflected(uint i) {
   LightParams light = LightParams(light_position_type, light_direction_outer, light_intensity_inner);
   vec3 irradiance = light_irradiance(light, position, ns, ng);
   if (irradiance == vec3(0.0)) return vec3(0.0);
+#if USER_LIGHT
+  vec3 from_light = position - light_position_type.xyz;
+  float range = length(from_light);
+  vec3 away = from_light / range;
+  irradiance *= user_light(vec3(dot(user_right, away), dot(user_up, away), dot(user_forward, away)), range,
+                           user_parameters);
+#endif
+#if BEAM
+  irradiance *= beam_factor(BeamParams(beam_right_width, beam_up_height, beam_forward_roundness, beam_edges_shear,
+                                       beam_cuts, beam_falloff_slide),
+                            slide, position - light_position_type.xyz);
+#endif
   BrdfParams brdf = BrdfParams(vec3(s.ngyz_diffuse_rg.zw, s.diffuse_b_glossy.x), s.position_exponent.w,
                                s.diffuse_b_glossy.yzw, shape_of(i));
 #if ALL_LOBES
-  vec3 f = brdf_eval(brdf, ns, normalize(eye - position), normalize(light_position_type.xyz - position));
+  vec3 f = brdf_eval(brdf, ns, normalize(eye - position), light_direction(light, position));
 #else
   vec3 f = brdf_diffuse(brdf);
 #endif

@@ -50,11 +50,16 @@ class GpuSamples {
 
 enum class Shadows { map, traced };
 
+inline constexpr int default_area_light_samples = 16;
+
 struct DirectLightingSettings {
   Shadows shadows = Shadows::map;
-  // Texels a side: of a spot's map, and of each of an omni's six faces. Away from shadow edges the maps show
-  // no false shadows; surfaces closer to each other than about two texels may let light through.
+  // Texels a side: of a spot's or directional light's map, and of each of an omni's six faces. Away from
+  // shadow edges the maps show no false shadows; surfaces closer to each other than about two texels may let
+  // light through.
   int shadow_map_size = 2048;
+  // Points that stand for a rectangle or disc, each with shadows of its own.
+  int area_light_samples = default_area_light_samples;
 };
 
 // One shaded channel set: which lobes leave the sample.
@@ -71,9 +76,9 @@ class DirectLighting {
   // Renders the shadow maps (or traces the shadow rays) for each light once and shades every set: out[i]
   // receives one vec4 a sample, rgb = radiance leaving sets[i] towards the eye (for Lobes::diffuse: in any
   // direction). Emission is not included. Lights of zero intensity cost nothing. Logs stages "shadow_maps"
-  // (or "shadow_rays") and "direct_shading", counters shadow_maps_rendered (1 for a spot, up to 6 for a
-  // cube), shadow_rays and shader_invocations; a radiance that is not finite is counted, warned of and
-  // replaced by zero (debug: an Error).
+  // (or "shadow_rays") and "direct_shading", counters shadow_maps_rendered (1 for a spot or directional
+  // light, up to 6 for a cube, 5 for each point of an area), shadow_rays and shader_invocations; a radiance
+  // that is not finite is counted, warned of and replaced by zero (debug: an Error).
   struct Request {
     const GpuSamples* samples;
     Lobes lobes;
@@ -89,11 +94,9 @@ class DirectLighting {
   std::unique_ptr<Impl> impl_;
 };
 
-// Throws Error for a light that is neither omni nor spot: both twins shade no others so far.
-void require_omni_or_spot(const Light& light);
-
 // The CPU twin, with traced shadows: the exact alternative and the oracle. Parallel, deterministic.
 std::vector<glm::vec3> shade_direct_cpu(const RayTracer& tracer, const std::vector<SurfaceSample>& samples,
-                                        const glm::vec3& eye, const LightingState& lighting, Lobes lobes);
+                                        const glm::vec3& eye, const LightingState& lighting, Lobes lobes,
+                                        int area_light_samples = default_area_light_samples);
 
 }  // namespace relight

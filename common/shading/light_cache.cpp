@@ -8,7 +8,7 @@ namespace {
 
 auto values(const Light& l) {
   return std::tie(l.type, l.position, l.direction, l.edge_u, l.edge_v, l.radius, l.intensity, l.inner_degrees,
-                  l.outer_degrees, l.casts_shadows);
+                  l.outer_degrees, l.casts_shadows, l.right, l.beam, l.sky, l.parameters);
 }
 
 // Takes one light equal to `light` out of `from`; false if there is none. Equal lights are counted.
@@ -29,7 +29,11 @@ std::vector<Light> lit(const LightingState& lighting) {
 
 }  // namespace
 
-bool same_light(const Light& a, const Light& b) { return values(a) == values(b); }
+bool same_light(const Light& a, const Light& b) {
+  const auto hash = [](const auto& content) { return content ? content->content_hash : 0; };
+  return values(a) == values(b) && hash(a.slide) == hash(b.slide) &&
+         hash(a.user_shader) == hash(b.user_shader);
+}
 
 LightCache::Plan LightCache::plan(const LightingState& lighting) {
   const std::vector<Light> lights = lit(lighting);

@@ -18,6 +18,7 @@ bool box_is_outside(const Bounds& box, const glm::vec3& origin, const glm::vec3&
 }
 
 bool may_be_visible(const Bounds& box, const LightFrame& frame, const ShadowFace& face) {
+  if (frame.parallel) return true;  // the map holds the whole scene
   const glm::vec3 inward = face.forward * frame.tan_half;
   for (const glm::vec3& n :
        {face.forward, inward + face.right, inward - face.right, inward + face.up, inward - face.up}) {

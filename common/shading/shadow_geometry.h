@@ -16,6 +16,7 @@ class ShadowGeometry {
   // Draws the chunks that may be inside the face. Expects program and framebuffer to be bound; vertex
   // attribute 0 is the position.
   void draw(const LightFrame& frame, const ShadowFace& face) const;
+  const Bounds& bounds() const { return bounds_; }
   // Distance from p to the farthest corner of the scene's bounds.
   float reach(const glm::vec3& p) const;
   bool empty() const { return chunks_.empty(); }

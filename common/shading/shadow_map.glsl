@@ -4,6 +4,8 @@
 
 uniform sampler2DArray shadow_maps;
 uniform int shadow_faces;
+uniform int shadow_parallel;
+uniform vec3 shadow_origin;
 uniform vec3 shadow_axis_x, shadow_axis_y, shadow_axis_z;
 uniform float shadow_tan_half;
 uniform float shadow_near;
@@ -31,7 +33,7 @@ vec3 in_light_frame(vec3 v) {
   return vec3(dot(shadow_axis_x, v), dot(shadow_axis_y, v), dot(shadow_axis_z, v));
 }
 
-// 1 if the light sees the point, else 0. rel: point - light; ng: geometric normal on the lit side.
+// 1 if the light sees the point, else 0. rel: point - shadow_origin; ng: geometric normal on the lit side.
 // A map knows the depth at a texel's centre only, up to half a texel away in x and y. Over that distance the surface
 // that is seen there rises towards the light by its own slope, which the maps' depths already allow for, and the
 // point's own plane by at most the normal offset taken here. Rounding adds what grows with coordinates and distance.
@@ -39,14 +41,16 @@ float shadow_map_visibility(vec3 rel, vec3 ng) {
   vec3 l = in_light_frame(rel), n = in_light_frame(ng);
   int face = shadow_face(l);
   vec3 n_face = in_face(n, face);
-  float half_texel = shadow_tan_half * in_face(l, face).z / float(shadow_map_size);
+  float half_texel = shadow_tan_half * (shadow_parallel != 0 ? 1.0 : in_face(l, face).z) / float(shadow_map_size);
   l += n * (half_texel * (abs(n_face.x) + abs(n_face.y)) + shadow_position_error);
   face = shadow_face(l);
   vec3 p = in_face(l, face);
-  if (!(p.z > 0.0) || face >= shadow_faces) return 1.0;  // outside the cone: no light, no shadow
-  vec2 uv = p.xy / (shadow_tan_half * p.z) * 0.5 + 0.5;
+  if (shadow_parallel == 0 && (!(p.z > 0.0) || face >= shadow_faces)) return 1.0;  // outside the cone: no light
+  vec2 uv = p.xy / (shadow_parallel != 0 ? shadow_tan_half : shadow_tan_half * p.z) * 0.5 + 0.5;
   ivec2 texel = clamp(ivec2(floor(uv * float(shadow_map_size))), ivec2(0), ivec2(shadow_map_size - 1));
   float stored = texelFetch(shadow_maps, ivec3(texel, face), 0).r;  // near / depth; 0: nothing there
+  // Linear depth: 1 in front, 0 behind the scene.
+  if (shadow_parallel != 0) return stored > 0.5 - 0.5 * p.z / shadow_near + shadow_rounding ? 0.0 : 1.0;
   return stored * p.z > shadow_near * (1.0 + shadow_rounding) ? 0.0 : 1.0;
 }
 

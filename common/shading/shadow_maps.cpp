@@ -45,8 +45,10 @@ ShadowMaps::ShadowMaps(const Scene& scene, int size)
   if (size < 1) fail("shadow map size {}: must be at least 1", size);
 }
 
-LightFrame ShadowMaps::render(const Light& light) {
-  const LightFrame frame = light_frame(light, geometry_.reach(light.position), size_);
+LightFrame ShadowMaps::render(const Emitter& light) {
+  const LightFrame frame = light.is_directional()
+                               ? parallel_frame(light, geometry_.bounds(), size_)
+                               : light_frame(light, geometry_.reach(light.position()), size_);
   if (maps_.layers() < frame.faces) {
     maps_ = {};  // free the smaller one first
     maps_ = gpu::Texture::depth_maps(size_, frame.faces);
@@ -56,6 +58,7 @@ LightFrame ShadowMaps::render(const Light& light) {
   program_.set("light_position", frame.position);
   program_.set("tan_half", frame.tan_half);
   program_.set("near_depth", frame.near);
+  program_.set("parallel", frame.parallel ? 1 : 0);
   for (int i = 0; i < frame.faces; ++i) {
     const ShadowFace face = frame.face(i);
     program_.set("face_right", face.right);
@@ -74,6 +77,8 @@ void ShadowMaps::bind(const gpu::Program& reader, const LightFrame& frame, float
   maps_.bind(0);
   reader.set("shadow_maps", 0);
   reader.set("shadow_faces", frame.faces);
+  reader.set("shadow_parallel", frame.parallel ? 1 : 0);
+  reader.set("shadow_origin", frame.position);
   reader.set("shadow_axis_x", frame.axes[0]);
   reader.set("shadow_axis_y", frame.axes[1]);
   reader.set("shadow_axis_z", frame.axes[2]);

@@ -12,26 +12,28 @@ namespace {
 
 // 16 neighbours at once: they run towards one light and so form a coherent packet.
 uint32_t visible_of_16(const RayTracer& tracer, const SurfaceSample* samples, size_t count,
-                       const shader::LightParams& light, uint32_t& traced) {
-  const glm::vec3 light_position(light.position_type);
+                       const Emitter& light, uint32_t& traced) {
   glm::vec3 origins[16];
   traced = 0;
   for (size_t i = 0; i < count; ++i) {
     const SurfaceSample& s = samples[i];
     if (!s.valid) continue;
-    const glm::vec3 e = shader::light_irradiance(light, s.position, s.shading_normal, s.geometric_normal);
-    if (e == glm::vec3(0.0f)) continue;
+    if (light.irradiance(s.position, s.shading_normal, s.geometric_normal) == glm::vec3(0.0f)) continue;
     traced |= 1u << i;
     origins[i] = tracer.offset_point(s.position, s.geometric_normal);  // a lit sample faces the light
   }
-  return traced ? tracer.visible16(origins, light_position, traced) : 0u;
+  return traced ? visible16(tracer, origins, light, traced) : 0u;
 }
 
 }  // namespace
 
+uint32_t visible16(const RayTracer& tracer, const glm::vec3* origins, const Emitter& light, uint32_t active) {
+  if (!light.is_directional()) return tracer.visible16(origins, light.position(), active);
+  return tracer.visible16_along(origins, light.axis() * (-2.0f * tracer.scene().bounds.diagonal()), active);
+}
+
 std::vector<uint32_t> traced_visibility(const RayTracer& tracer, const std::vector<SurfaceSample>& samples,
-                                        const Light& light, int64_t& rays) {
-  const shader::LightParams params = light.params();
+                                        const Emitter& light, int64_t& rays) {
   const size_t words = (samples.size() + 31) / 32;
   std::vector<uint32_t> visible(words), traced(words);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, words, 64), [&](const tbb::blocked_range<size_t>& range) {
@@ -41,7 +43,7 @@ std::vector<uint32_t> traced_visibility(const RayTracer& tracer, const std::vect
         if (first >= samples.size()) break;
         const size_t count = std::min<size_t>(16, samples.size() - first);
         uint32_t mask = 0;
-        visible[w] |= visible_of_16(tracer, &samples[first], count, params, mask) << (half * 16);
+        visible[w] |= visible_of_16(tracer, &samples[first], count, light, mask) << (half * 16);
         traced[w] |= mask << (half * 16);
       }
     }

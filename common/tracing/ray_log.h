@@ -21,8 +21,9 @@ struct RayLog {
   };
   struct Packet {
     Points16 origin;  // inactive entries: any finite point
-    glm::vec3 end;
+    glm::vec3 end;    // of all segments; if `parallel`, each segment's end minus its origin
     uint32_t active;
+    bool parallel = false;
   };
   // One thread's rays, in the order in which it traced them.
   struct Thread {

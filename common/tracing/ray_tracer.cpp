@@ -122,9 +122,9 @@ uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
   for (unsigned i = 0; i < 16; ++i) {
     valid[i] = (packet.active >> i) & 1u ? -1 : 0;
     rays.org_x[i] = origin.x[i], rays.org_y[i] = origin.y[i], rays.org_z[i] = origin.z[i];
-    rays.dir_x[i] = packet.end.x - origin.x[i];
-    rays.dir_y[i] = packet.end.y - origin.y[i];
-    rays.dir_z[i] = packet.end.z - origin.z[i];
+    rays.dir_x[i] = packet.parallel ? packet.end.x : packet.end.x - origin.x[i];
+    rays.dir_y[i] = packet.parallel ? packet.end.y : packet.end.y - origin.y[i];
+    rays.dir_z[i] = packet.parallel ? packet.end.z : packet.end.z - origin.z[i];
     rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
     rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
   }
@@ -204,6 +204,19 @@ uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t a
   for (unsigned i = 0; i < 16; ++i)
     if ((active >> i) & 1u) points.set(i, p[i]);
   return visible16(points, q, active);
+}
+
+uint32_t RayTracer::visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const {
+  if (!finite(v)) refuse_ray("direction", v, v);
+  RayLog::Packet packet;
+  packet.end = v, packet.active = active, packet.parallel = true;
+  for (unsigned i = 0; i < 16; ++i) {
+    if (!((active >> i) & 1u)) continue;
+    if (!finite(p[i])) refuse_ray("origin", p[i], v);
+    packet.origin.set(i, p[i]);
+  }
+  if (log_) log_->add(packet);
+  return active & ~embree_->occluded16(packet);
 }
 
 RayCounts RayTracer::replay(const RayLog::Thread& log) const {

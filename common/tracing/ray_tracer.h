@@ -46,6 +46,8 @@ class RayTracer {
   // Returns the mask of segments that are free. Positions must already be offset (see offset_point).
   uint32_t visible16(const Points16& p, const glm::vec3& q, uint32_t active) const;
   uint32_t visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const;
+  // The same for 16 parallel segments, from p[i] to p[i] + v.
+  uint32_t visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const;
 
   // Point p moved off its surface to the side of n: by a distance that scales with the largest coordinate of
   // the scene (float rounding of intersection points does too), so that scaling and moving scenes changes

@@ -90,7 +90,7 @@ std::string run_gather_bench(const GatherBenchOptions& options) {
   GatherCloud cloud;
   GatherHierarchy hierarchy;
   const Seconds cloud_time = seconds_of([&] {
-    cloud = make_gather_cloud_for_view(session.tracer(), session.buffer(), CloudSampling::importance, 1,
+    cloud = make_gather_cloud_for_view(session.tracer(), {session.buffer()}, CloudSampling::importance,
                                        options.gather_samples, session.options().seed);
   });
   const Seconds hierarchy_time = seconds_of([&] {

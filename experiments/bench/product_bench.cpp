@@ -60,7 +60,7 @@ Problem make_problem(Session& session, const KnobValues& knobs) {
                                session.cache(), session.progress(),     log};
   direct_to_indirect::Artefact artefact = direct_to_indirect::load_or_precompute(context);
   Problem p;
-  p.matrix = std::move(artefact.final_gather);
+  p.matrix = std::move(artefact.final_gather.diffuse);
   p.shape = {session.buffer().view.width, session.buffer().view.height};
   for (const SurfaceSample& s : session.buffer().indirect) p.scale.push_back(s.diffuse);
   p.lights_exact = wavelet_lights(session, artefact.cloud);

@@ -17,6 +17,9 @@ void add_session_flags(CLI::App& command, SessionOptions& options) {
       .add_option("--lights", options.lights,
                   "Lighting preset of the scene (see `relight scene info`), or a file")
       ->type_name("PRESET|FILE");
+  command.add_option("--at", options.time, "Time of an animated lighting")
+      ->type_name("SECONDS")
+      ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
   add_machine_flags(command, options);
 }

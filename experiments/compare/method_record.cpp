@@ -42,7 +42,7 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   record.seed = plan.session.seed;
   record.light_paths = method.paths.to_string();
   record.reference_paths = reference_paths(plan, method).to_string();
-  record.not_simulated = not_simulated(method.paths, scene);
+  record.not_simulated = not_simulated(method.paths, scene, session.lighting());
   record.width = view.width;
   record.height = view.height;
   record.exposure = static_cast<double>(scene.exposure);

@@ -6,7 +6,8 @@
 
 namespace relight {
 
-std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& scene) {
+std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& scene,
+                                       const LightingState& lighting) {
   std::vector<std::string> sentences;
   if (paths.min_bounces > 1) {
     sentences.push_back(fmt::format("indirect light of fewer than {} bounces", paths.min_bounces));
@@ -24,8 +25,8 @@ std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& sce
   if (glossy > 0 && !paths.glossy_interior) {
     sentences.push_back(fmt::format("glossy reflection at the surfaces behind the visible one ({})", share));
   }
-  if (!scene.environment.black() && !paths.environment) {
-    sentences.push_back("light from the scene's environment");
+  if (!lighting.environment_or(scene.environment).black() && !paths.environment) {
+    sentences.push_back(lighting.environment ? "light from the sky" : "light from the scene's environment");
   }
   const auto emitters = std::count_if(scene.materials.begin(), scene.materials.end(),
                                       [](const Material& m) { return m.emission != glm::vec3(0.0f); });

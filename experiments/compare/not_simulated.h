@@ -10,6 +10,7 @@
 
 namespace relight {
 
-std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& scene);
+std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& scene,
+                                       const LightingState& lighting = {});
 
 }  // namespace relight

@@ -33,7 +33,14 @@ std::string reference_key(const Session& session, const PathTracerSettings& sett
 std::string picture_key(const Session& session, const PathTracerSettings& settings) {
   const View& view = session.buffer().view;
   std::string lights;
-  for (const Light& light : session.lighting().lights) lights += fmt::format("[{}]", describe(light));
+  bool area = false;
+  for (const Light& light : session.lighting().lights) {
+    lights += fmt::format("[{}]", describe(light));
+    area = area || has_area(light.type);
+  }
+  // Absent without such lights, so that older pictures keep their keys.
+  if (area && settings.paths.min_bounces >= 1)
+    lights += fmt::format(" area_samples={}", settings.area_samples);
   return fmt::format(
       "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "
       "estimator={} seed={} classes={} pattern='{}' extended={}",

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/lights/light_words.h"
+#include "common/run/error.h"
 #include "experiments/mitsuba/texture_file.h"
 
 namespace relight::mitsuba {
@@ -94,6 +96,9 @@ Image spot_falloff(const Light& light) {
 
 void write_light(XmlWriter& xml, const Light& light, size_t index, const std::filesystem::path& folder,
                  std::vector<std::string>& warnings) {
+  if (light.type != LightType::omni && light.type != LightType::spot)
+    fail("light {} '{}' is of type {}; the export to Mitsuba knows omni, spot", index, light.name,
+         to_string(light.type));
   xml.comment(fmt::format("light {} '{}'", index, light.name));
   if (!light.casts_shadows)
     warnings.push_back(fmt::format(

@@ -17,6 +17,8 @@ struct RenderOptions {
   std::vector<std::string> settings;  // "method.knob=value"
   std::string image = "total";        // direct, indirect or total
   std::string out;                    // file ending in .exr (radiance) or .png (scene's exposure, sRGB)
+  double fps = 24.0;                  // of render_frames: frames a second
+  bool resume = false;                // of render_frames: frames that are there already are kept
 };
 
 // Renders and writes; returns a few lines about what was done. Throws UsageError before anything slow starts,

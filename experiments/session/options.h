@@ -16,6 +16,7 @@ struct SessionOptions {
   bool no_cache = false;
   std::string cache_folder;  // empty: ArtefactCache::default_folder()
   bool quiet = false;        // no progress on standard error
+  double time = 0.0;         // of an animated lighting [s]
 };
 
 }  // namespace relight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/lights/light_animation.h"
 #include "common/scene/scene_file.h"
 #include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
@@ -83,7 +84,8 @@ Session::Session(const SessionOptions& options, Gpu gpu)
       threads_(options.threads),
       scene_(timed(setup_, "load_scene", [&] { return load_named_scene(options.scene); })),
       lighting_name_(choose_lighting(scene_, options.lights)),
-      lighting_(load_named_lighting(scene_, lighting_name_)),
+      animated_lighting_(load_named_lighting(scene_, lighting_name_)),
+      lighting_(lighting_at(animated_lighting_, options.time)),
       cache_(open_cache(options)),
       progress_(options.quiet) {
   if (gpu == Gpu::needed) gpu_ = gpu::Context::create(options.gpu);

@@ -24,7 +24,8 @@ class Session {
   Session(const SessionOptions& options, Gpu gpu);
 
   const Scene& scene() const { return scene_; }
-  const LightingState& lighting() const { return lighting_; }
+  const LightingState& lighting() const { return lighting_; }  // standing still, at options().time
+  const LightingState& animated_lighting() const { return animated_lighting_; }
   const std::string& lighting_name() const { return lighting_name_; }  // as `--lights` would name it
   const RayTracer& tracer() const { return *tracer_; }
   RayTracer& tracer() { return *tracer_; }
@@ -41,7 +42,7 @@ class Session {
   StageLog setup_;
   Scene scene_;
   std::string lighting_name_;
-  LightingState lighting_;
+  LightingState animated_lighting_, lighting_;
   std::unique_ptr<gpu::Context> gpu_;
   std::unique_ptr<RayTracer> tracer_;
   DeepFrameBuffer buffer_;

@@ -11,7 +11,7 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 11;
+constexpr int precompute_version = 12;
 
 template <typename T>
 void append(std::vector<std::byte>& out, const std::vector<T>& values) {
@@ -74,11 +74,15 @@ std::string view_key(const PrepareContext& context) {
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
   std::vector<std::byte> out;
-  append(out, std::vector<uint32_t>{artefact.final_gather.columns});
+  const FinalGather& f = artefact.final_gather;
+  append(out, std::vector<uint32_t>{f.diffuse.columns});
   append(out, artefact.cloud.samples);
   append(out, artefact.cloud.area);
-  append(out, artefact.final_gather.row_start);
-  append(out, artefact.final_gather.entries);
+  append(out, f.diffuse.row_start);
+  append(out, f.diffuse.entries);
+  append(out, f.glossy_pixels);
+  append(out, f.glossy.row_start);
+  append(out, f.glossy.entries);
   const MultiBounce& m = artefact.multi_bounce;
   append(out, std::vector<int32_t>{m.bounces});
   append(out, std::vector<double>{m.share_beyond});
@@ -95,8 +99,12 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   const std::vector<uint32_t> columns = reader.next<uint32_t>();
   artefact.cloud.samples = reader.next<SurfaceSample>();
   artefact.cloud.area = reader.next<float>();
-  artefact.final_gather.row_start = reader.next<uint64_t>();
-  artefact.final_gather.entries = reader.next<SparseEntry>();
+  FinalGather& f = artefact.final_gather;
+  f.diffuse.row_start = reader.next<uint64_t>();
+  f.diffuse.entries = reader.next<SparseEntry>();
+  f.glossy_pixels = reader.next<uint32_t>();
+  f.glossy.row_start = reader.next<uint64_t>();
+  f.glossy.entries = reader.next<SparseEntry>();
   const std::vector<int32_t> bounces = reader.next<int32_t>();
   const std::vector<double> share_beyond = reader.next<double>();
   MultiBounce& m = artefact.multi_bounce;
@@ -105,9 +113,9 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   m.transfer.row_start = reader.next<uint64_t>();
   m.transfer.entries = reader.next<SparseEntry>();
   if (columns.size() != 1 || columns[0] != artefact.cloud.samples.size() || bounces.size() != 1 ||
-      share_beyond.size() != 1)
+      share_beyond.size() != 1 || f.glossy_pixels.size() != f.glossy.rows())
     fail("cached artefact: inconsistent sizes");
-  artefact.final_gather.columns = m.photons.columns = m.transfer.columns = columns[0];
+  f.diffuse.columns = f.glossy.columns = m.photons.columns = m.transfer.columns = columns[0];
   m.bounces = bounces[0];
   m.share_beyond = share_beyond[0];
   return artefact;

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "common/linalg/sparse_rows.h"
 #include "common/run/method.h"
 #include "common/sampling/gather_cloud.h"
+#include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 
 namespace relight::direct_to_indirect {
 
 struct Artefact {
-  GatherCloud cloud;        // in tree order; diffuse albedos include the column scaling
-  SparseRows final_gather;  // wavelet space, one row a view sample
+  GatherCloud cloud;         // in tree order; diffuse albedos include the column scaling
+  FinalGather final_gather;  // wavelet space
   MultiBounce multi_bounce;
 };
 

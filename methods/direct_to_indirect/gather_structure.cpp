@@ -12,9 +12,9 @@ constexpr const char* kind = "direct_to_indirect.gather_cloud";
 
 std::string cloud_key(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
-  return fmt::format("{};gather_samples={};cloud={};hierarchy_k={};bounces={}", view_key(context),
+  return fmt::format("{};gather_samples={};cloud={};hierarchy_k={};bounces={};glossy={}", view_key(context),
                      knobs.integer("gather_samples"), knobs.choice("cloud"), knobs.real("hierarchy_k"),
-                     bounces(knobs));
+                     bounces(knobs), knobs.choice("glossy"));
 }
 
 GatherCloud make_ordered_cloud(const PrepareContext& context) {
@@ -22,8 +22,7 @@ GatherCloud make_ordered_cloud(const PrepareContext& context) {
   GatherCloud cloud;
   {
     StageTimer timer(context.log, "gather_cloud");
-    cloud = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
-                                       knobs.integer("gather_samples"), context.seed);
+    cloud = make_cloud(context, knobs.integer("gather_samples"), context.seed);
   }
   StageTimer timer(context.log, "hierarchy");
   order_gather_cloud(cloud, static_cast<float>(knobs.real("hierarchy_k")), context.scene.bounds.diagonal());
@@ -37,7 +36,7 @@ GatherCloud ordered_cloud(const PrepareContext& context) {
   if (const auto bytes = context.parts->load(kind, key)) return from_bytes(*bytes).cloud;
   Artefact artefact;
   artefact.cloud = make_ordered_cloud(context);
-  artefact.final_gather.columns = static_cast<uint32_t>(artefact.cloud.samples.size());
+  artefact.final_gather.diffuse.columns = static_cast<uint32_t>(artefact.cloud.samples.size());
   context.parts->store(kind, key, to_bytes(artefact));
   return std::move(artefact.cloud);
 }
@@ -46,8 +45,12 @@ GatherCloud ordered_cloud(const PrepareContext& context) {
 
 int bounces(const KnobValues& knobs) { return static_cast<int>(knobs.integer("bounces")); }
 
-CloudSampling cloud_sampling(const KnobValues& knobs) {
-  return knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
+GatherCloud make_cloud(const PrepareContext& context, int64_t samples, uint64_t seed) {
+  const KnobValues& knobs = context.knobs;
+  const CloudView view{context.buffer, bounces(knobs), knobs.choice("glossy") == "auto"};
+  const CloudSampling sampling =
+      knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
+  return make_gather_cloud_for_view(context.tracer, view, sampling, samples, seed);
 }
 
 GatherStructure make_gather_structure(const PrepareContext& context) {

@@ -29,6 +29,14 @@ KnobTable knob_table() {
        "Columns as they are (paper), or divided by the mean row of the view, which flattens the rows (see column_scaling.h)."},
       {"coefficients", integer, precompute, "100", 0, 65536, {}, "truncation",
        "Wavelet coefficients kept a row of the final-gather matrix (paper: 100); 0: all of them, in dense rows for few pixels."},
+      {"glossy", choice, precompute, "auto", 0, 0, {"off", "auto"}, "final_gather",
+       "Glossy final-gather matrix: auto computes it where any visible surface is glossy; off leaves glossy reflection of indirect light out."},
+      {"glossy_gather", choice, precompute, "links", 0, 0, {"links", "rays"}, "final_gather",
+       "Elements of the glossy matrix: the lobe's value at linked gather samples (paper), or rays that follow the lobe, snapped to gather samples (glossy_rays.h)."},
+      {"glossy_rays", integer, precompute, "256", 1, 65536, {}, "final_gather",
+       "With glossy_gather=rays: rays of each glossy view sample."},
+      {"glossy_coefficients", integer, precompute, "100", 0, 65536, {}, "truncation",
+       "Wavelet coefficients kept a row of the glossy final-gather matrix (the paper names one number for both matrices: 100); 0: all of them."},
       {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
@@ -55,6 +63,8 @@ KnobTable knob_table() {
        "Indirect light is computed once a pixel and each of its 2x2 sub-pixels takes the closest pixel's (paper), or at every sub-pixel: four times the rows."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "direct_shading",
        "Shadows on view and gather samples: shadow maps (paper; GPU only) or exact traced rays; auto: traced if device=cpu, else map."},
+      {"area_light_samples", integer, relight, "16", 1, 4096, {}, "direct_shading",
+       "Points that stand for a rectangle or disc, each with shadows of its own."},
       {"shadow_map_size", integer, relight, "2048", 16, 8192, {}, "shadow_maps",
        "Texels a side of a shadow map."},
       {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "transfer",
@@ -76,11 +86,13 @@ KnobTable knob_table() {
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
            "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h); rays instead of the clamp between close points (near_field.h); 16-bit weights.",
+           "(light_refit.h); rays instead of the clamp between close points (near_field.h) and along "
+           "glossy lobes (glossy_rays.h); 16-bit weights.",
            {{"support_exponent", "0.8"},
             {"refit_lights", "2048"},
             {"refit_candidates", "1.5"},
             {"near_field", "hemisphere"},
+            {"glossy_gather", "rays"},
             {"weights", "16"}}}};
 }
 

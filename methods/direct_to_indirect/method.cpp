@@ -16,7 +16,7 @@ class DirectToIndirect : public Method {
   std::string name() const override { return "direct_to_indirect"; }
   std::string summary() const override {
     return "Direct light on a gather cloud, carried to the view by a sparse matrix in wavelet space "
-           "(diffuse, one bounce or several).";
+           "(diffuse, glossy at the visible surface; one bounce or several).";
   }
   std::string paper() const override {
     return "Hasan, Pellacini, Bala: Direct-to-Indirect Transfer for Cinematic Relighting, SIGGRAPH 2006";
@@ -26,6 +26,7 @@ class DirectToIndirect : public Method {
   LightPaths light_paths(const KnobValues& knobs) const override {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
+    paths.glossy_at_eye = knobs.choice("glossy") == "auto";
     return paths;
   }
   ErrorStages error_stages(const KnobValues& knobs) const override {

@@ -1,10 +1,13 @@
 #include "methods/direct_to_indirect/precompute.h"
 
+#include <optional>
+
 #include "common/run/artefact_cache.h"
 #include "common/run/error.h"
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/gather_structure.h"
+#include "methods/direct_to_indirect/glossy_rays.h"
 #include "methods/direct_to_indirect/indirect_grid.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/near_field.h"
@@ -30,6 +33,7 @@ FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   settings.disc_elements = knobs.choice("near_field") == "disc";
   settings.all_members = knobs.choice("link_members") == "all";
   settings.coefficients = static_cast<int>(kept_coefficients(knobs, "coefficients"));
+  settings.glossy_coefficients = static_cast<int>(kept_coefficients(knobs, "glossy_coefficients"));
   settings.energy_fraction = knobs.real("energy_fraction");
   settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
   settings.shared_budget = knobs.choice("row_budget") == "shared";
@@ -62,20 +66,19 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
                                    static_cast<int>(knobs.integer("near_rays")), context.seed};
   std::vector<SurfaceSample> points;
   if (kind == "cell_average")
-    points = make_gather_cloud_for_view(context.tracer, context.buffer, cloud_sampling(knobs), bounces(knobs),
-                                        points_a_cell * static_cast<int64_t>(cloud.samples.size()),
-                                        context.seed + 1)
+    points = make_cloud(context, points_a_cell * static_cast<int64_t>(cloud.samples.size()), context.seed + 1)
                  .samples;
   return std::make_unique<NearField>(context.tracer, cloud, hierarchy, settings, points);
 }
 
 // Settings that make no sense together; each alone is in range.
 void check(const KnobValues& knobs) {
-  if (knobs.integer("coefficients") == 0 && knobs.integer("refit_lights") > 0)
-    fail(
-        "direct_to_indirect.refit_lights: {} with coefficients=0: rows that keep every coefficient have "
-        "nothing to refit; valid: 0",
-        knobs.integer("refit_lights"));
+  for (const char* kept : {"coefficients", "glossy_coefficients"})
+    if (knobs.integer(kept) == 0 && knobs.integer("refit_lights") > 0)
+      fail(
+          "direct_to_indirect.refit_lights: {} with {}=0: rows that keep every coefficient have nothing to "
+          "refit; valid: 0",
+          knobs.integer("refit_lights"), kept);
 }
 
 Artefact precompute(const PrepareContext& context) {
@@ -106,8 +109,21 @@ Artefact precompute(const PrepareContext& context) {
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   StageTimer timer(context.log, "final_gather");
   const IndirectGrid grid(context.buffer, knobs);
-  const FinalGatherInput input{context.tracer, grid.samples(), artefact.cloud,   hierarchy,
-                               scale,          training,       near_field.get(), grid.tiles()};
+  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(context.buffer).empty();
+  std::optional<GlossyRays> rays;
+  if (glossy && knobs.choice("glossy_gather") == "rays")
+    rays.emplace(context.tracer, artefact.cloud, static_cast<int>(knobs.integer("glossy_rays")),
+                 context.seed);
+  const GlossyGather glossy_gather{context.buffer.view.camera.eye, rays ? &*rays : nullptr};
+  const FinalGatherInput input{context.tracer,
+                               grid.samples(),
+                               artefact.cloud,
+                               hierarchy,
+                               scale,
+                               training,
+                               near_field.get(),
+                               knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr,
+                               grid.tiles()};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   return artefact;

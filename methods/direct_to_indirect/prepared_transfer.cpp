@@ -4,12 +4,14 @@
 
 #include "common/gpu/context.h"
 #include "common/gpu/timer.h"
+#include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
 #include "common/sampling/pixel_subset.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
+#include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/multi_bounce_light.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
 
@@ -33,7 +35,8 @@ struct LitSamples {
         view(wanted_direct_samples(context.buffer), context.buffer.view.camera.eye),
         lighting(context.gpu, context.scene, context.tracer,
                  {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
-                  static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
+                  static_cast<int>(context.knobs.integer("shadow_map_size")),
+                  static_cast<int>(context.knobs.integer("area_light_samples"))}) {}
 
   DirectLight make() const {
     return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
@@ -54,6 +57,7 @@ class PreparedTransfer : public Prepared {
   PreparedTransfer(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : matrix_(std::move(artefact.final_gather)),
         kd_(diffuse_albedo(grid)),
+        kg_(glossy_colours(grid.samples(), matrix_.glossy_pixels)),
         oracle_(context.knobs.choice("device") == "oracle"),
         samples_(context, artefact.cloud),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
@@ -90,14 +94,22 @@ class PreparedTransfer : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
-  // Makes the product and lets the matrix go, of which only the oracle needs the floats.
+  // Makes the products and lets the matrices go, of which only the oracle needs the floats.
   void make_product(const PrepareContext& context, const IndirectGrid& grid) {
-    context.log.bytes("final_gather_matrix", matrix_.bytes());
+    log_matrices(matrix_, context.log);
     if (oracle_) return;
-    product_ = make_product_gpu(context.knobs.choice("product"), matrix_, kd_, picture_shape(grid),
-                                product_settings(context.knobs, grid), context.gpu.max_storage_block_bytes());
+    const std::string& form = context.knobs.choice("product");
+    const PictureShape shape = picture_shape(grid);
+    const ProductSettings settings = product_settings(context.knobs, grid);
+    const int64_t block = context.gpu.max_storage_block_bytes();
+    product_ = make_product_gpu(form, matrix_.diffuse, kd_, shape, settings, block);
+    log_product("transfer", product_->statistics(), context.log);
+    if (!kg_.empty()) {
+      glossy_product_.emplace(form, PartialMatrix{matrix_.glossy, matrix_.glossy_pixels, kg_, shape},
+                              settings, block);
+      log_product("glossy_transfer", glossy_product_->statistics(), context.log);
+    }
     matrix_ = {};
-    log_product(product_->statistics(), context.log);
   }
 
   void transfer_on_gpu(const gpu::Buffer& gather_direct, StageLog& log) {
@@ -116,6 +128,14 @@ class PreparedTransfer : public Prepared {
       StageTimer timer(log, "transfer");
       product_->multiply(haar_.coefficients(), indirect_);
       gpu::finish();
+    }
+    if (glossy_product_) {
+      StageTimer timer(log, "glossy_transfer");
+      glossy_product_->add(haar_.coefficients(), indirect_);
+      gpu::finish();
+      const CullStatistics culled = glossy_product_->culled();
+      log.count("glossy_transfer_blocks_culled", culled.blocks);
+      log.count("glossy_transfer_weights_culled", culled.weights);
     }
     const CullStatistics culled = product_->culled();
     log.count("transfer_blocks_culled", culled.blocks);
@@ -138,14 +158,19 @@ class PreparedTransfer : public Prepared {
       g = wavelet::forward(g);
     }
     StageTimer timer(log, "transfer");
-    const std::vector<glm::vec3> sums = relight::multiply(matrix_, g);
+    const std::vector<glm::vec3> sums = relight::multiply(matrix_.diffuse, g);
     std::vector<glm::vec4> v(sums.size());
     for (size_t i = 0; i < v.size(); ++i) v[i] = glm::vec4(sums[i] * kd_[i], 0.0f);
+    if (!kg_.empty()) {
+      const std::vector<glm::vec3> glossy = relight::multiply(matrix_.glossy, g);
+      for (size_t i = 0; i < glossy.size(); ++i)
+        v[matrix_.glossy_pixels[i]] += glm::vec4(glossy[i] * kg_[i], 0.0f);
+    }
     indirect_.upload(0, indirect_.bytes(), v.data());
   }
 
-  SparseRows matrix_;  // empty once a product is made of it
-  std::vector<glm::vec3> kd_;
+  FinalGather matrix_;              // empty once products are made of it
+  std::vector<glm::vec3> kd_, kg_;  // of all pixels, of the glossy ones
   bool oracle_;
   LitSamples samples_;
   wavelet::HaarGpu haar_;
@@ -153,7 +178,8 @@ class PreparedTransfer : public Prepared {
   std::optional<MultiBounceLight> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;
   gpu::Buffer indirect_;
-  std::unique_ptr<TransferProductGpu> product_;  // none for the oracle
+  std::unique_ptr<TransferProductGpu> product_;      // none for the oracle
+  std::optional<PartialProductGpu> glossy_product_;  // none without glossy pixels
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
 #include "common/run/error.h"
 #include "common/sampling/pixel_subset.h"
@@ -9,6 +10,7 @@
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
 #include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
 
@@ -32,7 +34,7 @@ struct LitSamples {
         view(wanted_direct_samples(context.buffer),
              pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
              context.buffer.view.camera.eye),
-        lighting(context.tracer) {}
+        lighting(context.tracer, static_cast<int>(context.knobs.integer("area_light_samples"))) {}
 
   DirectLight make() const {
     return {std::vector<glm::vec4>(gather.count() * block_lanes),
@@ -50,9 +52,10 @@ class PreparedTransferCpu : public Prepared {
   PreparedTransferCpu(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : samples_(context, artefact.cloud),
         haar_(artefact.cloud.samples.size()),
-        product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather,
+        product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather.diffuse,
                                   diffuse_albedo(grid), picture_shape(grid),
                                   product_settings(context.knobs, grid))),
+        glossy_product_(make_glossy_product(context, grid, artefact.final_gather)),
         reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
         coefficients_(artefact.cloud.samples.size()),
@@ -63,8 +66,9 @@ class PreparedTransferCpu : public Prepared {
       context.log.bytes("multi_bounce_matrix", bounces_->matrix_bytes());
       context.log.bytes("multi_bounce_light", bounces_->result_bytes());
     }
-    context.log.bytes("final_gather_matrix", artefact.final_gather.bytes());
-    log_product(product_->statistics(), context.log);
+    log_matrices(artefact.final_gather, context.log);
+    log_product("transfer", product_->statistics(), context.log);
+    if (glossy_product_) log_product("glossy_transfer", glossy_product_->statistics(), context.log);
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
     context.log.bytes("partial_results", direct_.bytes() + haar_.bytes() +
@@ -87,6 +91,10 @@ class PreparedTransferCpu : public Prepared {
       const StageTimer timer(log, "transfer");
       product_->multiply(coefficients_, indirect_);
     }
+    if (glossy_product_) {
+      const StageTimer timer(log, "glossy_transfer");
+      glossy_product_->add(coefficients_, indirect_);
+    }
     FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
     return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};
   }
@@ -94,9 +102,20 @@ class PreparedTransferCpu : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
+  static std::optional<PartialProductCpu> make_glossy_product(const PrepareContext& context,
+                                                              const IndirectGrid& grid,
+                                                              const FinalGather& matrix) {
+    if (matrix.glossy_pixels.empty()) return std::nullopt;
+    const std::vector<glm::vec3> kg = glossy_colours(grid.samples(), matrix.glossy_pixels);
+    return PartialProductCpu(context.knobs.choice("product"),
+                             {matrix.glossy, matrix.glossy_pixels, kg, picture_shape(grid)},
+                             product_settings(context.knobs, grid));
+  }
+
   LitSamples samples_;
   wavelet::HaarCpu haar_;
   std::unique_ptr<TransferProduct> product_;
+  std::optional<PartialProductCpu> glossy_product_;  // none without glossy pixels
   FusedReconstruction reconstruction_;
   std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
   CachedDirectLight<DirectLight> direct_;

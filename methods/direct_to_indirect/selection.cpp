@@ -102,17 +102,17 @@ void keep_largest(std::vector<Candidate>& candidates, size_t limit) {
             [](const Candidate& a, const Candidate& b) { return a.entry.column < b.entry.column; });
 }
 
-float row_factor(const SurfaceSample& s) { return luminance(s.diffuse); }
+float row_factor(const SurfaceSample& s, MatrixPart part) {
+  return luminance(part == MatrixPart::diffuse ? s.diffuse : s.glossy);
+}
 
-float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                              const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                              const FinalGatherSettings& settings, std::span<const float> column_scale) {
+float shared_budget_threshold(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings,
+                              MatrixPart part, uint32_t columns,
+                              const std::function<TileGather()>& make_gather) {
   const ViewTiles tiles(buffer);
   const std::vector<int> chosen = tiles.subset(settings.seed);
-  const auto columns = static_cast<uint32_t>(cloud.samples.size());
-  const size_t limit = settings.row_limit();
-  tbb::enumerable_thread_specific<TileGather> gathers(
-      [&] { return TileGather(tracer, cloud, hierarchy, settings, column_scale); });
+  const size_t limit = settings.row_limit(part);
+  tbb::enumerable_thread_specific<TileGather> gathers(make_gather);
   std::vector<std::vector<float>> weights(chosen.size());
   std::vector<size_t> rows(chosen.size(), 0);
   tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t i) {
@@ -122,11 +122,13 @@ float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& bu
     Lanes factor{};
     for (size_t lane = 0; lane < lanes; ++lane) {
       if (!samples[lane] || !samples[lane]->valid) continue;
+      if (part == MatrixPart::glossy && !is_glossy(*samples[lane])) continue;
       ++rows[i];
-      factor[lane] = row_factor(*samples[lane]);
+      factor[lane] = row_factor(*samples[lane], part);
     }
     LaneSelection selection;
-    select_largest(gather.coefficients(), settings.support_exponent, columns, factor, limit, selection);
+    select_largest(part == MatrixPart::diffuse ? gather.coefficients() : gather.glossy_coefficients(),
+                   settings.support_exponent, columns, factor, limit, selection);
     for (const std::vector<Candidate>& largest : selection.largest)
       for (const Candidate& c : largest) weights[i].push_back(c.weight);
   });
@@ -136,7 +138,7 @@ float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& bu
     all.insert(all.end(), weights[i].begin(), weights[i].end());
     valid_rows += rows[i];
   }
-  const size_t wanted = valid_rows * static_cast<size_t>(settings.coefficients);
+  const size_t wanted = valid_rows * static_cast<size_t>(settings.budget(part));
   if (wanted >= all.size()) return 0.0f;
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(wanted), all.end(),
                    std::greater<float>());

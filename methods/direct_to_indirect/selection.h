@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "common/linalg/sparse_rows.h"
@@ -34,14 +35,15 @@ void keep_largest(std::vector<Candidate>& candidates, size_t limit);
 // of them if they do not. Reorders.
 size_t count_for_energy(std::vector<Candidate>& candidates, double energy);
 
-// Brightness of a view sample's row in the picture: the luminance of its albedo k_d.
-float row_factor(const SurfaceSample& sample);
+// Brightness of a view sample's row in the picture: the luminance of its k_d, or of the colour of its glossy
+// part.
+float row_factor(const SurfaceSample& sample, MatrixPart part);
 
-// The weight above which a coefficient is kept when all rows share one budget of `coefficients` a row on
-// average: measured on every eighth tile of the view, so that the number kept comes out within a few per
-// cent. Deterministic.
-float shared_budget_threshold(const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                              const GatherCloud& cloud, const GatherHierarchy& hierarchy,
-                              const FinalGatherSettings& settings, std::span<const float> column_scale);
+// The weight above which a coefficient is kept when all rows share one budget of settings.budget(part) a row
+// on average: measured on every eighth tile of the view, so that the number kept comes out within a few per
+// cent. make_gather makes the walk of one thread. Deterministic.
+float shared_budget_threshold(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings,
+                              MatrixPart part, uint32_t columns,
+                              const std::function<TileGather()>& make_gather);
 
 }  // namespace relight::direct_to_indirect

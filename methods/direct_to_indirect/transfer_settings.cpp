@@ -27,11 +27,18 @@ ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& gr
   return settings;
 }
 
-void log_product(const ProductStatistics& statistics, StageLog& log) {
-  log.bytes("transfer_product", statistics.bytes);
-  log.count("transfer_weights_stored", statistics.stored);
-  log.count("transfer_blocks", statistics.blocks);
-  log.count("transfer_atlases", statistics.atlases);
+void log_product(const std::string& name, const ProductStatistics& statistics, StageLog& log) {
+  log.bytes(name + "_product", statistics.bytes);
+  log.count(name + "_weights_stored", statistics.stored);
+  log.count(name + "_blocks", statistics.blocks);
+  log.count(name + "_atlases", statistics.atlases);
+}
+
+void log_matrices(const FinalGather& matrix, StageLog& log) {
+  log.bytes("final_gather_matrix", matrix.diffuse.bytes());
+  if (!matrix.glossy_pixels.empty())
+    log.bytes("glossy_matrix",
+              matrix.glossy.bytes() + static_cast<int64_t>(matrix.glossy_pixels.size() * sizeof(uint32_t)));
 }
 
 }  // namespace relight::direct_to_indirect

@@ -1,11 +1,13 @@
 // What both devices read from the knobs and the view to make the transfer product of equation 7.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/linalg/transfer_product.h"
 #include "common/run/knobs.h"
 #include "common/run/stage_log.h"
+#include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/indirect_grid.h"
 
 namespace relight::direct_to_indirect {
@@ -19,7 +21,10 @@ PictureShape picture_shape(const IndirectGrid& grid);
 // Knobs weights, partial_results, cull_epsilon and block_waste.
 ProductSettings product_settings(const KnobValues& knobs, const IndirectGrid& grid);
 
-// Bytes transfer_product, counters transfer_weights_stored, transfer_blocks and transfer_atlases.
-void log_product(const ProductStatistics& statistics, StageLog& log);
+// Bytes <name>_product, counters <name>_weights_stored, <name>_blocks and <name>_atlases.
+void log_product(const std::string& name, const ProductStatistics& statistics, StageLog& log);
+
+// Bytes final_gather_matrix, and glossy_matrix where there is one.
+void log_matrices(const FinalGather& matrix, StageLog& log);
 
 }  // namespace relight::direct_to_indirect

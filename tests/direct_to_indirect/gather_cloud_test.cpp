@@ -130,7 +130,7 @@ TEST(GatherCloudForView, LeavesTheInsideOfASolidAlone) {
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
   for (const CloudSampling sampling : {CloudSampling::uniform, CloudSampling::importance}) {
-    const GatherCloud cloud = make_gather_cloud_for_view(tracer, buffer, sampling, 1, 4096, 1);
+    const GatherCloud cloud = make_gather_cloud_for_view(tracer, {buffer}, sampling, 4096, 1);
     int on_block = 0;
     for (const SurfaceSample& s : cloud.samples) {
       if (s.triangle < 10) continue;  // the first five quads are walls: open sheets, seen from either side
@@ -154,8 +154,7 @@ TEST(GatherCloudForView, LeavesBuriedFacesAlone) {
   finish_scene(scene);
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
-  const GatherCloud cloud =
-      make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, 16384, 1);
+  const GatherCloud cloud = make_gather_cloud_for_view(tracer, {buffer}, CloudSampling::importance, 16384, 1);
   int visible = 0, buried = 0;
   for (const SurfaceSample& s : cloud.samples) {
     if (s.geometric_normal.y < 0.5f) continue;
@@ -172,9 +171,8 @@ TEST(GatherCloudForView, PutsMoreSamplesWhereTheViewGathersMore) {
   const Scene scene = tiny::room();
   const RayTracer tracer(scene);
   const DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 64, 64});
-  const ImportanceMap map(tracer, buffer, 1, 1 << 16, 0.5f, 1);
-  const GatherCloud cloud =
-      make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, 16384, 1);
+  const ImportanceMap map(tracer, {buffer}, 1 << 16, 0.5f, 1);
+  const GatherCloud cloud = make_gather_cloud_for_view(tracer, {buffer}, CloudSampling::importance, 16384, 1);
   // Correlation, over the samples, of their bin's particles with their bin's samples.
   std::map<uint64_t, double> count;
   std::vector<uint64_t> bins;
@@ -189,6 +187,30 @@ TEST(GatherCloudForView, PutsMoreSamplesWhereTheViewGathersMore) {
     xy += x * y, xx += x * x, yy += y * y;
   }
   EXPECT_GT(xy / std::sqrt(xx * yy), 0.9);
+}
+
+// A view of pure metal gathers by its lobes alone: their particles must be counted. Red if importance follows
+// diffuse particles only (tried: no weight at all, and an error instead of a cloud); or if particles of a
+// lobe that looks left land right.
+TEST(GatherCloudForView, FollowsTheLobesOfGlossyViewSamples) {
+  const Scene scene = tiny::room(2.0f, glm::vec3(0.0f), true);
+  const RayTracer tracer(scene);
+  DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 32, 24});
+  for (SurfaceSample& s : buffer.indirect) s.diffuse = glm::vec3(0.0f), s.exponent = 1000.0f;
+  EXPECT_EQ(ImportanceMap(tracer, {buffer}, 1 << 12, 0.5f, 1).total_weight(), 0.0);
+  // Light from the back wall's lower half leaves towards the eye from the floor's mirror image of it.
+  const SurfaceSample floor = buffer.indirect[22 * 32 + 16];
+  ASSERT_GT(floor.shading_normal.y, 0.9f);
+  buffer.indirect.assign(1, floor);
+  const ImportanceMap map(tracer, {buffer, 1, true}, 1 << 12, 0.5f, 1);
+  const glm::vec3 to_eye = glm::normalize(buffer.view.camera.eye - floor.position);
+  const glm::vec3 mirror(-to_eye.x, to_eye.y, -to_eye.z);
+  const Hit hit = tracer.intersect(tracer.offset_point(floor.position, floor.geometric_normal), mirror);
+  ASSERT_TRUE(hit.valid);
+  const SurfaceSample seen = tracer.surface(hit, mirror);
+  const bool flipped = glm::dot(scene.area_normal(seen.triangle), seen.geometric_normal) < 0.0f;
+  EXPECT_GT(map.weight(map.bin(seen.position, seen.triangle, flipped)), 0.3 * map.total_weight());
+  EXPECT_GT(map.total_weight(), 0.2 * 0.25 * (1 << 12));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct GatherSetup {
         buffer(make_deep_frame_buffer(scene, tracer, {scene.camera, width, height})),
         cloud(both_sides
                   ? even_cloud(samples)
-                  : make_gather_cloud_for_view(tracer, buffer, CloudSampling::importance, 1, samples, 1)) {
+                  : make_gather_cloud_for_view(tracer, {buffer}, CloudSampling::importance, samples, 1)) {
     order_gather_cloud(cloud, 30.0f, scene.bounds.diagonal());
     hierarchy = build_hierarchy(cloud);
   }
@@ -41,7 +41,8 @@ struct GatherSetup {
     Progress progress(true);
     StageLog log;
     return compute_final_gather({tracer, buffer, cloud, hierarchy, column_scale, training, near_field},
-                                settings, progress, log);
+                                settings, progress, log)
+        .diffuse;
   }
 };
 

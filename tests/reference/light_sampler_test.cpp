@@ -15,7 +15,7 @@ constexpr float almost_one = 1.0f - 0x1p-24f;
 TEST(LightSampler, EmitsInsideTheConeForEveryAngle) {
   for (float outer : {0.2f, 5.0f, 45.0f, 89.0f}) {
     const LightSampler sampler(lighting({spot({1, 2, 3}, {0.3f, -1.0f, 0.2f}, 0.5f * outer, outer)}));
-    const glm::vec3 axis(sampler.params(0).direction_outer);
+    const glm::vec3 axis(sampler.emitter(0).params.direction_outer);
     double mean = 0;
     const int n = 4096;
     for (uint32_t i = 0; i < n; ++i) {

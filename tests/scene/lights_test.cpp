@@ -22,7 +22,7 @@ Light spot() {
 
 // Red if a name is missing, or stands in another place than its type has in the enumeration.
 TEST(LightTypes, HaveNamesThatAreReadBack) {
-  ASSERT_EQ(light_type_names().size(), static_cast<size_t>(LightType::disc) + 1);
+  ASSERT_EQ(light_type_names().size(), static_cast<size_t>(light_type_count));
   EXPECT_EQ(to_string(LightType::rectangle), "rectangle");
   for (const std::string& name : light_type_names()) EXPECT_EQ(to_string(light_type_of(name)), name);
   try {

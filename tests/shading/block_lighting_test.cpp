@@ -76,7 +76,7 @@ TEST(BlockLighting, EqualsThePlainTwinBitByBitUnderEveryLight) {
     const auto got = shade(room, room.samples, {light}, Lobes::diffuse, log);
     expect_equal(got, shade_direct_cpu(room.tracer, room.samples, eye, {"", {light}}, Lobes::diffuse));
     int64_t rays = 0;
-    traced_visibility(room.tracer, room.samples, light, rays);
+    traced_visibility(room.tracer, room.samples, emitter_of(light), rays);
     EXPECT_EQ(log.counters().at("shadow_rays"), rays) << "a sample that no light can reach cost a ray";
   }
 }
@@ -101,19 +101,19 @@ TEST(BlockLighting, EqualsThePlainTwinBitByBitForEveryModel) {
   }
 }
 
-// Red if culling hides a lit block, or no longer culls (tried: nothing culled). The blocks here are neighbours
-// in an image, as the random samples above are not.
+// Red if culling hides a lit block, or no longer culls (tried: nothing culled). The blocks here are
+// neighbours in an image, as the random samples above are not.
 TEST(BlockCulling, SkipsMostBlocksOutsideANarrowConeAndNoneThatIsLit) {
   const Room room;
   const View view{room.scene.camera, 96, 64};
   const DeepFrameBuffer buffer = make_deep_frame_buffer(room.scene, room.tracer, view);
   const SampleBlocks blocks(buffer.direct, pixel_quad_order(96, 64), eye);
   for (const Light& light : hard_lights()) {
-    const shader::LightParams params = light.params();
-    const BlockCulling culling(params);
+    const Emitter emitter = emitter_of(light);
+    const BlockCulling culling(emitter);
     size_t dark = 0, culled = 0;
     for (size_t b = 0; b < blocks.count(); ++b) {
-      const bool lit = lit_lanes(params, blocks.geometry(b)) != 0,
+      const bool lit = lit_lanes(emitter, blocks.geometry(b)) != 0,
                  kept = culling.may_be_lit(blocks.bounds(b));
       ASSERT_TRUE(kept || !lit) << "block " << b << ", cone of " << light.outer_degrees << " degrees";
       dark += !lit, culled += !kept;
@@ -223,14 +223,6 @@ TEST(BlockLighting, InvalidSamplesAndBlackLightsGiveBlackAndCostNothing) {
   for (const glm::vec4& v : shade(room, room.samples, {black}, Lobes::all, dark))
     ASSERT_EQ(v, glm::vec4(0.0f));
   EXPECT_TRUE(dark.counters().empty() && dark.stages().empty());
-}
-
-TEST(BlockLighting, RefusesLightsItHasNoFormFor) {
-  const Room room;
-  Light light = omni_light({0, 1, 0});
-  light.type = LightType::directional;
-  StageLog log;
-  EXPECT_THROW(shade(room, room.samples, {light}, Lobes::diffuse, log), Error);
 }
 
 }  // namespace

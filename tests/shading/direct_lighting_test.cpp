@@ -243,22 +243,6 @@ TEST_F(Direct, SetsBeyondOneDispatchAreShadedWhole) {
   EXPECT_EQ(got.download<glm::vec4>(), expected.download<glm::vec4>());
 }
 
-// Red if either twin shades a directional light as if it had a place (tried: without the check in the CPU
-// twin).
-TEST(DirectLights, OtherThanOmniAndSpotAreRefusedByName) {
-  for (const LightType type : {LightType::directional, LightType::rectangle, LightType::disc}) {
-    Light light;
-    light.name = "odd";
-    light.type = type;
-    LightingState lighting;
-    lighting.lights = {light};
-    const Scene scene = tiny::room();
-    const RayTracer tracer(scene);
-    EXPECT_THROW(shade_direct_cpu(tracer, {}, glm::vec3(0.0f), lighting, Lobes::diffuse), Error);
-    EXPECT_THROW(require_omni_or_spot(light), Error);
-  }
-}
-
 // Red if an output that is too small is written past its end.
 TEST_F(Direct, RefusesAnOutputThatIsTooSmall) {
   DirectLighting shading(*context_, scene_, tracer_, {Shadows::traced, 0});

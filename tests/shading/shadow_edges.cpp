@@ -38,7 +38,7 @@ bool all_alike(const RayTracer& tracer, const SurfaceSample& s, const glm::vec3&
 }  // namespace
 
 float texel_at_unit_depth(const Light& light, int map_size) {
-  return 2.0f * light_frame(light, 1.0f, map_size).tan_half / static_cast<float>(map_size);
+  return 2.0f * light_frame(emitter_of(light), 1.0f, map_size).tan_half / static_cast<float>(map_size);
 }
 
 std::vector<uint8_t> away_from_shadow_edges(const RayTracer& tracer,
@@ -50,6 +50,33 @@ std::vector<uint8_t> away_from_shadow_edges(const RayTracer& tracer,
   for (size_t i = 0; i < samples.size(); ++i) {
     away[i] = !lit_side(samples[i], params) || all_alike(tracer, samples[i], light.position, texel);
   }
+  return away;
+}
+
+std::vector<uint8_t> away_from_parallel_shadow_edges(const RayTracer& tracer,
+                                                     const std::vector<SurfaceSample>& samples,
+                                                     const Light& light, float texel) {
+  const shader::LightParams params = light.params();
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
+  const glm::dmat3 frame(frame_around(glm::vec3(axis)));
+  const glm::vec3 towards = glm::vec3(axis) * (-2.0f * tracer.scene().bounds.diagonal());
+  const auto alike = [&](const SurfaceSample& s) {
+    const auto lit = [&](const glm::vec3& p) {
+      return tracer.visible_from_point(p, s.geometric_normal, p + towards);
+    };
+    const glm::dvec3 n(s.geometric_normal);
+    const bool here = lit(s.position);
+    for (int k = 0; k < 24; ++k) {
+      const double angle = glm::radians(45.0 * (k % 8)), radius = 0.5 * (1 + k / 8) * double{texel};
+      const glm::dvec3 across = radius * (frame[0] * std::cos(angle) + frame[1] * std::sin(angle));
+      const double along = -glm::dot(n, across) / glm::dot(n, axis);
+      if (!(std::abs(along) < 4.0 * double{texel})) return false;  // the texel runs off along the surface
+      if (lit(glm::vec3(glm::dvec3(s.position) + across + along * axis)) != here) return false;
+    }
+    return true;
+  };
+  std::vector<uint8_t> away(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) away[i] = !lit_side(samples[i], params) || alike(samples[i]);
   return away;
 }
 

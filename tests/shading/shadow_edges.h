@@ -23,4 +23,9 @@ std::vector<uint8_t> away_from_shadow_edges(const RayTracer& tracer,
                                             const std::vector<SurfaceSample>& samples, const Light& light,
                                             int map_size);
 
+// The same for a directional light, whose map has texels of the given width everywhere.
+std::vector<uint8_t> away_from_parallel_shadow_edges(const RayTracer& tracer,
+                                                     const std::vector<SurfaceSample>& samples,
+                                                     const Light& light, float texel);
+
 }  // namespace relight::test

@@ -36,8 +36,8 @@ class TransferBench {
     values.set("gather_samples", "1024");
     values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
-    StageLog log;
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, log, parts});
+    prepare_log = {};
+    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log, parts});
   }
 
   Scene scene;
@@ -51,6 +51,7 @@ class TransferBench {
   ArtefactCache cache{folder, true};
   Progress progress{true};
   ArtefactCache* parts = nullptr;  // see PrepareContext
+  StageLog prepare_log;            // of the last prepare
 };
 
 inline double norm(const Image& image) {

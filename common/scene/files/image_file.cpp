@@ -6,6 +6,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "common/run/error.h"
+#include "common/scene/content_hash.h"
 #include "common/scene/files/material_conversion.h"
 
 namespace relight {
@@ -85,6 +86,28 @@ Texture load_texture_from_memory(std::span<const unsigned char> bytes, const std
   const auto input = OIIO::ImageInput::open(jpeg ? "embedded.jpg" : "embedded.png", nullptr, &reader);
   if (!input) fail("{}: {}", name, OIIO::geterror());
   return to_texture(read_pixels(*input, name), name);
+}
+
+Slide load_slide(const std::filesystem::path& file) {
+  Pixels pixels = open_and_read(file);
+  require_light(pixels, file.string());
+  // Shaders find a texel by a float.
+  constexpr size_t most_pixels = size_t{1} << 24;
+  if (pixels.rows.size() > most_pixels)
+    fail("{}: {} x {} pixels; a slide may have {}", file.string(), pixels.width, pixels.height, most_pixels);
+  Slide slide;
+  slide.file = file.string();
+  slide.width = pixels.width;
+  slide.height = pixels.height;
+  slide.texels.clear();
+  for (const glm::vec3& c : pixels.rows)
+    slide.texels.emplace_back(pixels.encoded ? srgb_to_linear(c) : c, 1.0f);
+  ContentHash hash;
+  hash.add(slide.width);
+  hash.add(slide.height);
+  hash.add(slide.texels);
+  slide.content_hash = hash.value();
+  return slide;
 }
 
 void load_environment_map(const std::filesystem::path& file, Environment& environment) {

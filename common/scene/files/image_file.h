@@ -16,6 +16,10 @@ Texture load_texture(const std::filesystem::path& file);
 // messages.
 Texture load_texture_from_memory(std::span<const unsigned char> bytes, const std::string& name);
 
+// The slide of a projector; integer formats are taken as sRGB-encoded. Throws Error naming the file if it
+// can't be read, is larger than 2^24 pixels or holds a negative or non-finite value.
+Slide load_slide(const std::filesystem::path& file);
+
 // Fills width, height and texels (row 0 on top) of a latitude-longitude map. Throws Error naming the file if
 // it can't be read or holds a negative or non-finite value.
 void load_environment_map(const std::filesystem::path& file, Environment& environment);

@@ -1,0 +1,79 @@
+// The rows of one final-gather matrix, made tile by tile from all coefficients of their walk: truncated,
+// refitted if asked for, and collected in the order of the pixels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/linalg/sparse_rows.h"
+#include "methods/direct_to_indirect/final_gather.h"
+#include "methods/direct_to_indirect/light_refit.h"
+#include "methods/direct_to_indirect/selection.h"
+#include "methods/direct_to_indirect/view_tiles.h"
+
+namespace relight::direct_to_indirect {
+
+// Reported only: the sums of energy may differ in the last bits between runs.
+struct RowTotals {
+  int64_t before = 0;  // coefficients before truncation
+  double energy_before = 0, energy_kept = 0;
+
+  RowTotals& operator+=(const RowTotals& other) {
+    before += other.before;
+    energy_before += other.energy_before, energy_kept += other.energy_kept;
+    return *this;
+  }
+};
+
+// Scratch of one worker thread.
+struct RowScratch {
+  std::optional<LightRefit> refit;  // none: coefficients stay as they are
+  std::array<RefitRow, lanes> rows;
+  LaneSelection selection;
+  RowTotals totals;
+};
+
+class RowBuilder {
+ public:
+  // threshold: of shared_budget_threshold; used with settings.shared_budget only.
+  RowBuilder(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings, MatrixPart part,
+             uint32_t columns, float threshold)
+      : buffer_(buffer),
+        settings_(settings),
+        part_(part),
+        columns_(columns),
+        threshold_(threshold),
+        view_tiles_(buffer),
+        tiles_(static_cast<size_t>(view_tiles_.count())) {}
+
+  // `coefficients`: all of the rows of tile t. Tiles may be added by several threads, each with its scratch.
+  void add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t);
+  // One row for each pixel, or of the glossy matrix one for each glossy pixel. Once only: it lets go of them.
+  SparseRows finish();
+
+ private:
+  // The rows of one tile's lanes, one after the other; lane i ends at end[i].
+  struct TileRows {
+    std::vector<SparseEntry> entries;
+    std::array<uint32_t, lanes> end{};
+  };
+  bool has_row(const SurfaceSample& sample) const {
+    return part_ == MatrixPart::diffuse ? sample.valid : is_glossy(sample);
+  }
+  Lanes row_factors(const std::array<const SurfaceSample*, lanes>& samples) const;
+  size_t candidate_limit(const RowScratch& scratch) const;
+  float surplus(const RowScratch& scratch) const { return scratch.refit ? settings_.refit_candidates : 1.0f; }
+  RefitRow select(RowScratch& scratch, size_t lane) const;
+
+  const DeepFrameBuffer& buffer_;
+  const FinalGatherSettings& settings_;
+  MatrixPart part_;
+  uint32_t columns_;
+  float threshold_;
+  ViewTiles view_tiles_;
+  std::vector<TileRows> tiles_;
+};
+
+}  // namespace relight::direct_to_indirect

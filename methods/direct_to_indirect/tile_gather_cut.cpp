@@ -1,0 +1,94 @@
+// Which clusters the walk of tile_gather.h enters, and which it takes as a whole: culling by planes and
+// normal cones, and the solid-angle heuristic.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "methods/direct_to_indirect/tile_gather.h"
+
+namespace relight::direct_to_indirect {
+namespace {
+
+// Largest value of dot(n, x - p) over a box, by lane; the box is completely behind the plane if it is not
+// positive.
+struct BoxSupport {
+  glm::vec3 lo, hi;
+  float operator()(float nx, float ny, float nz, float px, float py, float pz) const {
+    return std::max(nx * (lo.x - px), nx * (hi.x - px)) + std::max(ny * (lo.y - py), ny * (hi.y - py)) +
+           std::max(nz * (lo.z - pz), nz * (hi.z - pz));
+  }
+};
+
+}  // namespace
+
+// Lanes for which some of the cluster is above both the shading and the geometric plane of the view sample.
+uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
+  const BoxSupport support{cluster.lo, cluster.hi};
+  std::array<uint32_t, lanes> above;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float s = support(sx_[i], sy_[i], sz_[i], px_[i], py_[i], pz_[i]);
+    const float g = support(gx_[i], gy_[i], gz_[i], px_[i], py_[i], pz_[i]);
+    above[i] = (s > 0.0f) & (g > 0.0f) ? 1 : 0;
+  }
+  return mask & to_mask(above);
+}
+
+// Lanes that may see the front of some member. With half-angle a of the cone of normals and angular radius b
+// of the cluster, every member faces away if the angle between axis and direction to the view sample is at
+// least 90 + a + b.
+uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) const {
+  if (!(cluster.cone_cosine > 0.0f)) return mask;
+  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
+  const float radius2 = glm::dot(half, half), cos_a = cluster.cone_cosine;
+  // Rounding of the bound normals may let a member lie a few ulps outside the cone.
+  const float sin_a = std::sqrt(std::max(0.0f, 1.0f - cos_a * cos_a)) + 1e-4f;
+  std::array<uint32_t, lanes> maybe;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
+    const float d2 = wx * wx + wy * wy + wz * wz;
+    const float sin2_b = radius2 / d2;
+    const float sin_b = std::sqrt(sin2_b), cos_b = std::sqrt(std::max(0.0f, 1.0f - sin2_b));
+    const float towards =
+        (wx * cluster.cone_axis.x + wy * cluster.cone_axis.y + wz * cluster.cone_axis.z) / std::sqrt(d2);
+    const bool away =
+        (d2 > radius2) & (cos_a * cos_b > sin_a * sin_b) & (towards < -(sin_a * cos_b + cos_a * sin_b));
+    maybe[i] = away ? 0 : 1;
+  }
+  return mask & to_mask(maybe);
+}
+
+// The solid-angle heuristic of section 4.3, for the closest active view sample.
+bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const {
+  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), diagonal = cluster.hi - cluster.lo;
+  // Without a threshold a cluster is never linked as a whole, not even one whose members coincide: their
+  // areas may differ.
+  if (settings_.link_threshold <= 0.0f) return true;
+  const float size2 = glm::dot(diagonal, diagonal), threshold = settings_.link_threshold;
+  std::array<uint32_t, lanes> close;
+  for (size_t i = 0; i < lanes; ++i) {
+    const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
+    close[i] = size2 > threshold * (wx * wx + wy * wy + wz * wz) ? 1 : 0;
+  }
+  return (mask & to_mask(close)) != 0 || lobes_need_subdivision(cluster, mask & linked_lobes_);
+}
+
+// The same with the lobe (section 4.3: "force more subdivision around the peak of the lobe"): a cluster
+// counts as if it were as many times larger as pi rho_g cos exceeds the 1 / 1 of a Lambert surface.
+bool TileGather::lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const {
+  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
+  const float radius2 = glm::dot(half, half);
+  if (!(radius2 > 0.0f)) return false;
+  for (size_t i = 0; i < lanes; ++i) {
+    if (!(mask >> i & 1u)) continue;
+    const glm::vec3 w = centre - glm::vec3(px_[i], py_[i], pz_[i]);
+    const float d2 = glm::dot(w, w);
+    if (d2 <= radius2) return true;
+    const float sin2_b = radius2 / d2;
+    const float lobe =
+        lobe_[i].largest_in_cone(w / std::sqrt(d2), std::sqrt(1.0f - sin2_b), std::sqrt(sin2_b));
+    if (4.0f * radius2 * std::numbers::pi_v<float> * lobe > settings_.link_threshold * d2) return true;
+  }
+  return false;
+}
+
+}  // namespace relight::direct_to_indirect
