@@ -111,7 +111,7 @@ RunRecord describe(const ExplainPlan& plan, Session& session) {
   run.method = plan.method.method->name(), run.knobs = plan.method.knobs.all();
   run.seed = plan.session.seed;
   run.light_paths = run.reference_paths = plan.method.paths.to_string();
-  run.not_simulated = not_simulated(plan.method.paths, scene);
+  run.not_simulated = not_simulated(plan.method.paths, scene, session.lighting());
   run.command = command_line(plan, session.lighting_name());
   run.exposure = static_cast<double>(scene.exposure);
   run.width = session.buffer().view.width, run.height = session.buffer().view.height;

@@ -80,12 +80,15 @@ ErrorStage close_points(const KnobValues& knobs) {
                         knobs.real("near_threshold"));
   return {"close points",
           fmt::format("Elements between points close to each other are {}; twin: {} rays of the hemisphere, "
-                      "snapped to cells, where a cell fills {} of it, and no clamp.",
-                      how, twin_near_rays, twin_near_threshold),
+                      "snapped to cells, where a cell fills {} of it, and no clamp. Glossy elements: {} rays "
+                      "of the lobe.",
+                      how, twin_near_rays, twin_near_threshold, twin_near_rays),
           {{"near_field", "hemisphere"},
            {"near_rays", fmt::format("{}", twin_near_rays)},
            {"near_threshold", fmt::format("{}", twin_near_threshold)},
-           {"form_factor_clamp", "1"}},
+           {"form_factor_clamp", "1"},
+           {"glossy_gather", "rays"},
+           {"glossy_rays", fmt::format("{}", twin_near_rays)}},
           kind != "hemisphere" || knobs.integer("near_rays") < twin_near_rays ||
               knobs.real("near_threshold") > twin_near_threshold};
 }

@@ -6,6 +6,7 @@
 
 #include "common/sampling/pixel_subset.h"
 #include "common/scene/scene_file.h"
+#include "tests/support/tiny_scenes.h"
 #include "tests/support/transfer_bench.h"
 
 namespace relight::direct_to_indirect {
@@ -58,6 +59,23 @@ TEST(PixelsAlone, AreThoseOfTheWholePictureBitForBitOnTheCpu) {
     EXPECT_GT(test::norm(both.whole), 0.0);
     EXPECT_TRUE(same_bits(both.whole, both.alone)) << relative_difference(both.alone, both.whole);
     bench.parts = &clouds;  // the first has shown that clouds are equal; making them is slow
+  }
+}
+
+// Glossy rows are numbered over the whole view, of whose samples only some have one. Red if a subset's rows
+// are given to other samples.
+TEST(PixelsAlone, HaveTheGlossyLightOfTheWholePicture) {
+  TransferBench bench(tiny::room(2.0f, glm::vec3(0.0f), true), width, height);
+  bench.scene.lightings["near"] = tiny::lighting({tiny::omni({0.3f, 0.6f, 0.4f}, glm::vec3(2.0f))});
+  ArtefactCache clouds = ArtefactCache::in_memory();
+  bench.parts = &clouds;
+  for (const TransferBench::Knobs& knobs :
+       {TransferBench::Knobs{{"device", "cpu"}},
+        {{"device", "cpu"}, {"upsampling", "none"}, {"glossy_gather", "rays"}, {"link_members", "all"}},
+        {{"device", "gpu"}, {"weights", "float32"}, {"glossy_coefficients", "0"}}}) {
+    const Both both = relit(bench, knobs, glm::ivec2(4));
+    EXPECT_GT(bench.prepare_log.counters().at("glossy_pixels"), 0);
+    EXPECT_TRUE(same_bits(both.whole, both.alone)) << relative_difference(both.alone, both.whole);
   }
 }
 
