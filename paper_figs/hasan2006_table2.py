@@ -112,7 +112,8 @@ def main():
           "Made by `paper_figs/hasan2006_table2.py` from table.csv, which `relight run experiments/hasan2006_table2.toml` "
           f"wrote on: {cpus}, two cores, OSMesa (no GPU); commits {commits}. 640x480, 65,536 gather samples, 100 "
           "coefficients, one bounce. The paper: GeForce 7800, Pentium 4; its scenes are other models of the same kind, "
-          "except Sponza. Stored MB: the product's form (8 bits; `best` 16).\n")
+          "except Sponza. Stored MB: the product's form (8 bits; `best` 16). Frame rates are of the median of five relights; "
+          "culling on is `cull_epsilon=0.0001`, off is -1.\n")
     costs(rows, scenes, presets)
     stages(rows, scenes, presets)
     errors(rows, scenes, presets)
