@@ -1,5 +1,7 @@
 #include "experiments/compare/compare.h"
 
+#include <algorithm>
+
 #include "experiments/compare/image_files.h"
 #include "experiments/compare/method_record.h"
 #include "experiments/compare/run_method.h"
@@ -7,8 +9,20 @@
 
 namespace relight {
 
+namespace {
+
+bool sees_gloss(const DeepFrameBuffer& buffer) {
+  const auto glossy = [](const SurfaceSample& s) { return s.valid && s.glossy != glm::vec3(0.0f); };
+  return std::any_of(buffer.direct.begin(), buffer.direct.end(), glossy) ||
+         std::any_of(buffer.indirect.begin(), buffer.indirect.end(), glossy);
+}
+
+}  // namespace
+
 const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog& log) {
-  const LightPaths paths = reference_paths(plan_, method);
+  LightPaths paths = reference_paths(plan_, method);
+  // Where the view shows no gloss both sets of paths give one picture: it is traced and kept once.
+  paths.glossy_at_eye = paths.glossy_at_eye && sees_gloss(session_.buffer());
   for (const ReferenceImages& made : made_) {
     if (same_paths(made.settings.paths, paths)) return made;
   }

@@ -48,9 +48,9 @@ int bounces(const KnobValues& knobs) { return static_cast<int>(knobs.integer("bo
 GatherCloud make_cloud(const PrepareContext& context, int64_t samples, uint64_t seed) {
   const KnobValues& knobs = context.knobs;
   const CloudView view{context.buffer, bounces(knobs), knobs.choice("glossy") == "auto"};
-  const CloudSampling sampling =
-      knobs.choice("cloud") == "importance" ? CloudSampling::importance : CloudSampling::uniform;
-  return make_gather_cloud_for_view(context.tracer, view, sampling, samples, seed);
+  const bool importance = knobs.choice("cloud") == "importance";
+  return make_gather_cloud_for_view(
+      context.tracer, view, importance ? CloudSampling::importance : CloudSampling::uniform, samples, seed);
 }
 
 GatherStructure make_gather_structure(const PrepareContext& context) {

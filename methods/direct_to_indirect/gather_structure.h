@@ -11,7 +11,7 @@ namespace relight::direct_to_indirect {
 // Bounces of indirect light in all, the final gather's included.
 int bounces(const KnobValues& knobs);
 
-// Samples spread as knobs cloud, bounces and glossy say, in no particular order.
+// A cloud of that many samples, not yet ordered: where particles of importance go, and how it is spread.
 GatherCloud make_cloud(const PrepareContext& context, int64_t samples, uint64_t seed);
 
 struct GatherStructure {
@@ -19,9 +19,9 @@ struct GatherStructure {
   GatherHierarchy hierarchy;
 };
 
-// Knobs gather_samples, cloud, hierarchy_k, bounces and glossy, on the whole view. The cloud is kept in
-// context.parts where there are any. Logs stages gather_cloud and hierarchy; a cloud that was kept has no
-// stage gather_cloud.
+// Knobs gather_samples, cloud, hierarchy_k and bounces, on the whole view. The cloud is kept in context.parts
+// where there are any. Logs stages gather_cloud and hierarchy; a cloud that was kept has no stage
+// gather_cloud.
 GatherStructure make_gather_structure(const PrepareContext& context);
 
 }  // namespace relight::direct_to_indirect

@@ -36,7 +36,7 @@ KnobTable knob_table() {
       {"glossy_rays", integer, precompute, "256", 1, 65536, {}, "final_gather",
        "With glossy_gather=rays: rays of each glossy view sample."},
       {"glossy_coefficients", integer, precompute, "100", 0, 65536, {}, "truncation",
-       "Wavelet coefficients kept a row of the glossy final-gather matrix (the paper names one number for both matrices: 100); 0: all of them."},
+       "Wavelet coefficients kept a row of the glossy final-gather matrix (the paper names one number for both matrices: 100); 0: all."},
       {"energy_fraction", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",

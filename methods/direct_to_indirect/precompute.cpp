@@ -73,12 +73,11 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
 
 // Settings that make no sense together; each alone is in range.
 void check(const KnobValues& knobs) {
-  for (const char* kept : {"coefficients", "glossy_coefficients"})
-    if (knobs.integer(kept) == 0 && knobs.integer("refit_lights") > 0)
-      fail(
-          "direct_to_indirect.refit_lights: {} with {}=0: rows that keep every coefficient have nothing to "
-          "refit; valid: 0",
-          knobs.integer("refit_lights"), kept);
+  if (knobs.integer("coefficients") == 0 && knobs.integer("refit_lights") > 0)
+    fail(
+        "direct_to_indirect.refit_lights: {} with coefficients=0: rows that keep every coefficient have "
+        "nothing to refit; valid: 0",
+        knobs.integer("refit_lights"));
 }
 
 Artefact precompute(const PrepareContext& context) {
@@ -109,7 +108,7 @@ Artefact precompute(const PrepareContext& context) {
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   StageTimer timer(context.log, "final_gather");
   const IndirectGrid grid(context.buffer, knobs);
-  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(context.buffer).empty();
+  const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(grid.samples()).empty();
   std::optional<GlossyRays> rays;
   if (glossy && knobs.choice("glossy_gather") == "rays")
     rays.emplace(context.tracer, artefact.cloud, static_cast<int>(knobs.integer("glossy_rays")),

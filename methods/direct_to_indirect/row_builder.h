@@ -50,7 +50,7 @@ class RowBuilder {
 
   // `coefficients`: all of the rows of tile t. Tiles may be added by several threads, each with its scratch.
   void add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t);
-  // One row for each pixel, or of the glossy matrix one for each glossy pixel. Once only: it lets go of them.
+  // To be called once. One row for each pixel, or of the glossy matrix one for each glossy pixel.
   SparseRows finish();
 
  private:

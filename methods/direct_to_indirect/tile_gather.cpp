@@ -158,6 +158,19 @@ uint32_t TileGather::elements(const GatherPoint& g, Lanes& value) const {
   return to_mask(positive);
 }
 
+// F_g = pi rho_g F_d of unoccluded links to a point, F_d bounded as the diffuse element is. No element
+// exceeds what the whole lobe reflects: it may be narrower than the cell that the point stands for.
+Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const {
+  Lanes value{};
+  for (size_t i = 0; i < lanes; ++i) {
+    if (!(mask >> i & 1u)) continue;
+    const glm::vec3 wi = glm::normalize(member - glm::vec3(px_[i], py_[i], pz_[i]));
+    const float element = std::numbers::pi_v<float> * lobe_[i].value(wi) * bounded[i];
+    value[i] = element > 0.0f ? std::min(lobe_[i].albedo(), element) : 0.0f;
+  }
+  return value;
+}
+
 // factor x F / w of one gather sample for each lane, 0 where it is not seen.
 template <typename Value>
 Value TileGather::seen_elements(size_t member, float factor, uint32_t mask) {
@@ -187,7 +200,7 @@ Value TileGather::link(size_t level, size_t index, uint32_t mask) {
   const float root = std::sqrt(static_cast<float>(size));
   if (settings_.all_members && size > 1) {
     counts_.links += std::popcount(mask);
-    Value sum;
+    Value sum{};
     for (size_t member = index * size; member < (index + 1) * size; ++member) {
       const auto value = seen_elements<Value>(member, 1.0f / root, mask);
       for (size_t i = 0; i < lanes; ++i) {
@@ -201,19 +214,6 @@ Value TileGather::link(size_t level, size_t index, uint32_t mask) {
   const auto value =
       seen_elements<Value>(index * size + (size > 1 ? random_member(level, index, size) : 0), root, mask);
   counts_.links += counts_.rays - rays;
-  return value;
-}
-
-// F_g = pi rho_g F_d of unoccluded links to a point, F_d bounded as the diffuse element is. No element
-// exceeds what the whole lobe reflects: it may be narrower than the cell that the point stands for.
-Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const {
-  Lanes value{};
-  for (size_t i = 0; i < lanes; ++i) {
-    if (!(mask >> i & 1u)) continue;
-    const glm::vec3 wi = glm::normalize(member - glm::vec3(px_[i], py_[i], pz_[i]));
-    const float element = std::numbers::pi_v<float> * lobe_[i].value(wi) * bounded[i];
-    value[i] = element > 0.0f ? std::min(lobe_[i].albedo(), element) : 0.0f;
-  }
   return value;
 }
 

@@ -30,7 +30,7 @@ float brightness(const std::string& file) {
   return sum;
 }
 
-// Red if (tried): a frame's time is not divided by fps; all frames show the time of the first.
+// Red if a frame's time is not divided by fps; all frames show the time of the first.
 TEST(RenderFrames, ShowTheLightingAtTheirTimes) {
   const TemporaryFolder folder;
   test::write_text(folder / "moving.toml", moving);
@@ -51,7 +51,7 @@ TEST(RenderFrames, ShowTheLightingAtTheirTimes) {
   EXPECT_NEAR(brightness(folder / "out/frame.exr"), 3.0f * first, 1e-3f * first);
 }
 
-// A killed run leaves whole frames only; they are kept, the others made. Red if (tried): frames that exist
+// A killed run leaves whole frames only; they are kept, the others made. Red if frames that exist
 // are made again, or frames made from something else are taken for these.
 TEST(RenderFrames, ResumeKeepsFramesThatExistAndRefusesOthers) {
   const TemporaryFolder folder;
@@ -95,7 +95,7 @@ TEST(FrameTimes, AreParsedOrRefusedWithTheTextFound) {
   EXPECT_THROW(parse_frames("0:1", 0.0), UsageError);
 }
 
-// Red if (tried): `scene info` leaves out how lights move.
+// Red if `scene info` leaves out how lights move.
 TEST(SceneInfo, ListsAnimatedLights) {
   const ProgramResult info = run_program(
       "scene info " + (std::filesystem::path(RELIGHT_SOURCE_DIR) / "scenes/cornell_lights.toml").string());

@@ -189,9 +189,8 @@ TEST(GatherCloudForView, PutsMoreSamplesWhereTheViewGathersMore) {
   EXPECT_GT(xy / std::sqrt(xx * yy), 0.9);
 }
 
-// A view of pure metal gathers by its lobes alone: their particles must be counted. Red if importance follows
-// diffuse particles only (tried: no weight at all, and an error instead of a cloud); or if particles of a
-// lobe that looks left land right.
+// A view of pure metal gathers by its lobes alone: their particles must be counted. Tried, each red:
+// importance by diffuse particles only, which have no weight; lobes towards the normal instead of the eye.
 TEST(GatherCloudForView, FollowsTheLobesOfGlossyViewSamples) {
   const Scene scene = tiny::room(2.0f, glm::vec3(0.0f), true);
   const RayTracer tracer(scene);

@@ -61,8 +61,8 @@ TEST(GlossyLobe, IsExactForPhongAndForGreySurfaces) {
 }
 
 // Light of equal radiance from everywhere has the right colour. The bound is the noise of the ratio of
-// channels, which varies by up to 13 % over a lobe (below), after 64 samples. Tried, red: k_g = `glossy`,
-// whose albedo is off by up to 1.9 in blue at grazing angles.
+// channels, which varies by up to 13 % over a lobe (below), after 64 samples. Red if k_g is `glossy`
+// (tried).
 TEST(GlossyLobe, ReflectsEvenLightInTheRightColourWhateverFresnelDoes) {
   for (const double cosine : {1.0, 0.5, 0.2, 0.05})
     for (const GlossyPart& part : {ggx_part(gold, 0.5f, 0.5f), ggx_part(gold, 0.05f, 0.05f),

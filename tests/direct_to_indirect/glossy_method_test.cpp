@@ -43,9 +43,8 @@ Scene half_glossy_room() {
 }
 
 // Bound: some 200 float roundings of 2^-24 (transfer_test.cpp has 100 for one matrix). The oracle has just
-// computed the matrices, the others take them from the cache. Tried, all red: k_g of the next row; the sums
-// added to the wrong pixel; the second product left out on the CPU; glossy_pixels left out of the cached
-// bytes.
+// computed the matrices, the others take them from the cache. Red if the second product is left out on the
+// CPU (tried), rows take each other's k_g or pixel, or the cached bytes lose some.
 TEST(GlossyMethod, EveryProductOfTheCachedMatrixAgreesWithTheDoublePrecisionOracle) {
   TransferBench bench(half_glossy_room(), 60, 45);
   for (const char* gather : {"links", "rays"}) {
@@ -76,8 +75,8 @@ int mentions_of_gloss(const StageLog& log) {
 }
 
 // A diffuse view pays nothing: the same bits, rays, links and bytes as with glossy=off, and the one thing
-// that is said about gloss is that there is none. Red if rows or a product are made for no pixel (tried: the
-// product made anyway; the cloud spread by other random numbers).
+// that is said about gloss is that there is none. Red if rows are made for no pixel (tried), or the
+// cloud is spread by other random numbers.
 TEST(GlossyMethod, CostsNothingWhereNoVisibleSurfaceIsGlossy) {
   TransferBench bench(tiny::room());
   StageLog off_log, auto_log;
@@ -111,7 +110,8 @@ TEST(GlossyMethod, DeclaresGlossAtTheEyeAndNowhereElse) {
 
 // By rays. Measured at 160x120 with 16,384 gather samples and coarse links: 19.8 % of the indirect picture,
 // much of it at edges and in the diffuse part; the bound leaves a tenth. (With link_threshold 0.05: rays 17.8
-// %, links 27.5 %, glossy=off 43.8 %.) Tried, red: the lobe towards the normal instead of the eye.
+// %, links 27.5 %, glossy=off 43.8 %.) Red if the lobe looks towards
+// the normal instead of the eye.
 TEST(GlossyMethod, MatchesThePathTracerOnTheStillLife) {
   TransferBench bench(load_scene("still_life:detail=0.4"), 160, 120);
   const TransferBench::Knobs knobs = {

@@ -47,9 +47,8 @@ std::vector<double> row_sums(const SparseRows& rows) {
   return sums;
 }
 
-// Red if a density of 0 or infinity, a half vector of length 0, or F0 in place of Fresnel's term at grazing
-// angles gets through (tried: the weight's density floored at 1e-3; links bounded by twice the lobe's
-// albedo).
+// Red if a density of 0 or infinity or a half vector of length 0 gets through, or the weight of a ray lacks
+// its cosine (tried).
 TEST(GlossyHardCases, ExtremeLobesAtGrazingEyesGiveFiniteRowsOfNoMoreThanTheirAlbedo) {
   for (const float height : {0.3f, 1e-2f, 1e-4f}) {
     GatherSetup s(grazing(height), 16, 12, 1024, true);

@@ -31,8 +31,8 @@ void expect_near(const glm::vec3& a, const glm::vec3& b) {
   EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z;
 }
 
-// Red if (tried): tracks are taken for keyframes of all fields; directions are not normalised; values go on
-// beyond the last keyframe.
+// Red if (tried): the first value returns after the last keyframe; or if a track needs every field in every
+// keyframe, or directions are not normalised.
 TEST(Keyframes, AreLinearAndHeldAtTheEnds) {
   const LightingState lighting = load(moving);
   ASSERT_TRUE(lighting.animation);
@@ -51,8 +51,8 @@ TEST(Keyframes, AreLinearAndHeldAtTheEnds) {
   EXPECT_FALSE(lighting_at(lighting, 2.0).animation);
 }
 
-// The light cache knows a light by its bits. Red if (tried): a track is evaluated where both ends are equal,
-// with rounding.
+// The light cache knows a light by its bits. Red if (tried): lights without tracks move by a
+// millionth.
 TEST(Keyframes, LeaveStandingLightsTheSameBitByBit) {
   const LightingState lighting = load(moving);
   for (const double time : {0.0, 1.3, 2.9, 5.0}) {
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"'spot'", "at 2 s", "target", "no length"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-// Red if (tried): keyframes are checked by no table, or only when a frame is due.
+// Red if (tried): unknown keys or times that go back pass; values are checked only when a frame is due.
 TEST_P(BadKeyframes, AreRefusedWhenTheFileIsRead) {
   const std::string message = error_message([] { load(GetParam().text); });
   for (const std::string& part : GetParam().parts)

@@ -11,8 +11,7 @@
 namespace relight {
 namespace {
 
-// Red if (tried): the radical inverse is not shifted to the middle of its stratum (two points then share a
-// stratum of 16 x 1 after rounding up), or runs over the wrong number of digits.
+// Red if (tried): the radical inverse is not shifted to the middle of its stratum, or its digits are turned.
 TEST(StratifiedPoints, HaveOnePointInEveryElementaryInterval) {
   for (const uint32_t n : {1u, 4u, 16u, 64u}) {
     for (uint32_t columns = 1; columns <= n; columns *= 2) {
@@ -28,7 +27,7 @@ TEST(StratifiedPoints, HaveOnePointInEveryElementaryInterval) {
   EXPECT_EQ(stratified_point(0, 1), glm::vec2(0.5f));
 }
 
-// Red if (tried): points of a disc crowd at its centre (radius not by the concentric map), or lie outside.
+// Red if (tried): points of a disc crowd at its centre, or fill half of its radius.
 TEST(AreaShape, SpreadsPointsEvenly) {
   const AreaShape disc(test::disc_light({1, 2, 3}, {0, -1, 0}, 0.5f), 0.0f);
   constexpr uint32_t n = 4096;

@@ -65,9 +65,10 @@ glm::dvec3 expected(const Light& light, const glm::dvec3& p) {
   return glm::dvec3(light.intensity) * factor * slide;
 }
 
-// All places in front of the lights, facing them. Stated bound: 2e-5 of the peak there, for the slope of the
-// fading edges. Samples within 1e-4 of a hard edge are left out. Red if (tried): shear has the other sign;
-// the slide is mirrored or upside down; the near and far cut are exchanged; falloff ignores its distance.
+// All places in front of the lights, facing them. Stated bound: 2e-4 of the bare light there, for the slope
+// of the fading edges. Samples within 1e-4 of a hard edge are left out. Red if (tried): shear has the other
+// sign; the slide is mirrored or upside down; the near and far cut are exchanged; falloff ignores its
+// distance.
 void expect_formula(const Light& light) {
   SCOPED_TRACE(light.name);
   const Emitter emitter = emitter_of(light);

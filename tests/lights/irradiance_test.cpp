@@ -27,8 +27,7 @@ glm::vec3 irradiance(const std::vector<Emitter>& emitters, const Place& p) {
   return sum;
 }
 
-// E = E0 max(0, n . -d). Red if (tried): the direction's sign is turned, or the light falls off with
-// distance.
+// E = E0 max(0, n . -d). Red if (tried): the direction's sign is turned.
 TEST(DirectionalIrradiance, IsTheCosineLawEverywhere) {
   const Light light = test::directional_light({0.4f, -1.0f, -0.3f});
   int lit = 0;
@@ -67,7 +66,7 @@ TEST(AreaIrradiance, IsTheSumOverItsPoints) {
 
 // Against the exact form factor of a rectangle at points on the floor, at least 2.4 widths away: the relative
 // error is below 1/(2n). Red if (tried): the points fill only half of the
-// rectangle; the disc's map for the rectangle.
+// rectangle.
 TEST(AreaIrradiance, ConvergesToTheFormFactor) {
   const Light light = test::rectangle_light({0.1f, 1.9f, -0.2f}, {0.6f, 0, 0}, {0, 0, 0.4f});
   const check::Rectangle exact{{-0.5, 1.9, -0.6}, {1.2, 0, 0}, {0, 0, 0.8}};

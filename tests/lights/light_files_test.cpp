@@ -31,7 +31,7 @@ const std::string uber = "type = \"uber\"\nintensity = 2\n" + at;
 const std::string sky = "type = \"sun_sky\"\nelevation_degrees = 30\n";
 const std::string shader_light = "type = \"shader\"\nintensity = 2\nfile = \"lamp.glsl\"\n" + at;
 
-// Red if (tried): fov is taken for the half-angle; the aspect of the image is not the default; rows upside
+// Red if fov is taken for the half-angle; the aspect of the image is not the default; rows upside
 // down.
 TEST(LightFiles, ReadProjectors) {
   const Light light = load(projector + "fov_degrees = 90\n").lights.at(0);
@@ -59,7 +59,7 @@ TEST(LightFiles, ReadUberLightsWithTheDefaultsOfTheDocumentation) {
   EXPECT_TRUE(all.slide);
 }
 
-// Red if (tried): the lighting keeps the scene's environment, or the sun shines upwards.
+// Red if the lighting keeps the scene's environment, or the sun shines upwards.
 TEST(LightFiles, ReadDaylightAsSunAndSky) {
   const LightingState lighting = load(sky + "azimuth_degrees = 90\nscale = 0.5\n");
   const Light& sun = lighting.lights.at(0);
@@ -80,7 +80,7 @@ TEST(LightFiles, ReadShadersWithTheirParameters) {
 }
 
 // Stored references and cached pictures are known by these words, light caches by same_light: what changes
-// the light must change both. Red if (tried): a field is left out of either.
+// the light must change both. Red if a field is left out of either (tried: the beam, in same_light).
 TEST(LightFiles, EveryFieldIsInTheDescriptionAndInTheComparison) {
   const std::vector<std::string> variants = {
       uber,
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"'disc'", "casts_shadows", "true"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
-// Red if (tried): a range is left out of the table of fields.
+// Red if a range is left out of the table of fields.
 TEST_P(BadLightFiles, AreRefusedNamingTheField) {
   const std::string message = error_message([] { load(GetParam().text); });
   for (const std::string& part : GetParam().parts)

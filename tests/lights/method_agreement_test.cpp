@@ -35,7 +35,7 @@ Image reference_direct(const test::TransferBench& bench, const LightingState& li
 // shadows (rounding, and rays that graze), 0.1 with maps of 1024 texels (edges that are a texel off, in 1 %
 // of the picture; what maps do elsewhere is tested with them); with an area and 64 points 0.02 (the
 // reference's own noise is 0.01). Red if (tried): the method takes the light of an area without its lift from
-// the ceiling; its emitters' cosine is left out; the reference counts rectangles twice.
+// the ceiling; the reference counts rectangles twice.
 TEST(EveryLight, GivesTheDirectImageOfTheReference) {
   test::TransferBench bench(load_scene("cornell"));
   const auto cpu = bench.prepare({{"device", "cpu"}, {"area_light_samples", "64"}});
@@ -55,7 +55,7 @@ TEST(EveryLight, GivesTheDirectImageOfTheReference) {
 }
 
 // With shadows, on a whole picture. The error falls with the number of points; 1024 of them are within the
-// reference's own noise, of which its variance tells. Red if (tried): points fill half of the disc.
+// reference's own noise, of which its variance tells. Red if points fill half of the disc.
 TEST(AreaLight, ConvergesToTheReferenceAsItsPointsGrow) {
   test::TransferBench bench(load_scene("cornell"));
   for (const Light& light : {cornell_lights()[3], cornell_lights()[4]}) {
@@ -79,7 +79,7 @@ TEST(AreaLight, ConvergesToTheReferenceAsItsPointsGrow) {
   }
 }
 
-// However many points it has, it is one light of the cache. Red if (tried): the cache is asked for emitters.
+// However many points it has, it is one light of the cache. Red if the cache is asked for emitters.
 TEST(AreaLight, IsOneLightOfTheLightCache) {
   test::TransferBench bench(load_scene("cornell"), 16, 12);
   const auto method = bench.prepare({{"device", "cpu"}});
@@ -95,8 +95,8 @@ TEST(AreaLight, IsOneLightOfTheLightCache) {
 }
 
 // Frames of an animated lighting in order, on both devices. The lamp that stands still is shaded twice and
-// then kept; before the first and after the last keyframe everything stands. Red if (tried): lights without
-// tracks get new bits; maps of the standing lamp are rendered again.
+// then kept; before the first and after the last keyframe everything stands. Red if lights without
+// tracks get new bits (tried); maps of the standing lamp are rendered again.
 TEST(AnimatedLighting, CostsTheMovingLightOnly) {
   test::TransferBench bench(load_scene(std::string(RELIGHT_SOURCE_DIR) + "/scenes/cornell_lights.toml"), 16,
                             12);

@@ -15,8 +15,8 @@ glm::vec3 direction(double elevation, double azimuth) {
   return glm::vec3(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
 }
 
-// No value is clamped, so the fit must be positive by itself wherever it is offered. Red if (tried): a
-// coefficient's sign is wrong (E of the luminance, the constant of x), or turbidity 1 is let in.
+// No value is clamped, so the fit must be positive by itself wherever it is offered. Red if (tried): the sun
+// may stand at the horizon. A wrong sign of a coefficient need not show here (tried: E of the luminance).
 TEST(Sky, IsPositiveForEveryTurbiditySunAndDirection) {
   for (const float turbidity : {2.0f, 3.0f, 5.0f, 8.0f, 10.0f})
     for (const float elevation : {2.0f, 5.0f, 15.0f, 30.0f, 60.0f, 90.0f}) {
@@ -31,7 +31,7 @@ TEST(Sky, IsPositiveForEveryTurbiditySunAndDirection) {
     }
 }
 
-// Red if (tried): azimuth turns the other way, or is measured from another axis than the sky's.
+// Red if (tried): azimuth turns the other way.
 TEST(Sky, IsBrightestAroundTheSun) {
   const SkySettings sky{35.0f, 70.0f, 3.0f, 1.0f};
   EXPECT_LT(glm::length(sun_direction(sky) - direction(35.0, 70.0)), 1e-6f);

@@ -37,7 +37,7 @@ struct Room {
 
 // A spot written again as a user's shader gives what the spot gives: frame, distance, parameters and shadows
 // all reach it. Stated bound: 2e-5 of rounding_scale_of (the cone's slope). Red if (tried): `away` in the
-// scene's frame; a parameter shifted by one; the factor left out.
+// scene's frame; a parameter shifted by one.
 TEST(UserLight, CanBeASpot) {
   Room room;
   Light spot = test::spot_light({-1.5f, 1.5f, 1.5f}, glm::normalize(glm::vec3(1, -1.2f, -1)), 35.0f);
@@ -65,7 +65,7 @@ TEST(UserLight, CanBeASpot) {
   }
 }
 
-// Red if (tried): messages name the file that stands in, or the line of the whole program.
+// Red if (tried): messages name the file that stands in.
 TEST(UserLight, ErrorsNameTheUsersFileAndLine) {
   Room room;
   const Light light = user_light(

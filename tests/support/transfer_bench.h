@@ -50,8 +50,8 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
-  ArtefactCache* parts = nullptr;  // see PrepareContext
   StageLog prepare_log;            // of the last prepare
+  ArtefactCache* parts = nullptr;  // see PrepareContext
 };
 
 inline double norm(const Image& image) {
