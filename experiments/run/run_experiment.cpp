@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "common/run/atomic_file.h"
@@ -33,6 +34,22 @@ std::vector<RunRecord> earlier_records(const std::filesystem::path& file) {
   RecordFile read = read_records(file);
   for (const std::string& warning : read.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return std::move(read.records);
+}
+
+// Of records of the same run the last; in the order in which the runs were first done.
+std::vector<RunRecord> latest_of_each(const std::vector<RunRecord>& records) {
+  std::vector<RunRecord> latest;
+  std::map<std::string, size_t> place;
+  for (const RunRecord& r : records) {
+    std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", r.scene, r.lighting, r.view, r.method, r.seed);
+    for (const auto& [knob, value] : r.knobs) key += "\n" + knob + "=" + value;
+    const auto [at, is_new] = place.try_emplace(key, latest.size());
+    if (is_new)
+      latest.push_back(r);
+    else
+      latest[at->second] = r;
+  }
+  return latest;
 }
 
 // Scene, view and tracer are kept from run to run while they stay the same.
@@ -113,7 +130,8 @@ ExperimentResult run_experiment(const RunList& list, const std::filesystem::path
       fmt::print(stderr, "FAILED {}\n", result.failures.back());
     }
   }
-  write_text_atomically(out / "table.csv", result_csv(result.records));
+  // Of all runs in the folder, not only of those that --only named.
+  write_text_atomically(out / "table.csv", result_csv(latest_of_each(earlier_records(file))));
   return result;
 }
 

@@ -29,8 +29,9 @@ struct ExperimentResult {
 bool is_record_of(const RunRecord& record, const PlannedRun& run);
 
 // Writes OUT/records.jsonl (a line as soon as a run is done), OUT/<scene>_<lights>_<method>_<label>/*.exr and
-// OUT/table.csv. A run that has a record without failures is not run again; one that fails is reported and
-// the others go on. Says on standard error what runs, and how long the rest will take at the pace so far.
+// OUT/table.csv, which holds every run in the folder. A run that has a record without failures is not run
+// again; one that fails is reported and the others go on. Says on standard error what runs, and how long the
+// rest will take at the pace so far.
 ExperimentResult run_experiment(const RunList& list, const std::filesystem::path& out, bool again);
 
 // One line a run: settings that vary, errors, times, bytes; for spreadsheets and plots.
