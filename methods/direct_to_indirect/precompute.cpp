@@ -73,11 +73,12 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
 
 // Settings that make no sense together; each alone is in range.
 void check(const KnobValues& knobs) {
-  if (knobs.integer("coefficients") == 0 && knobs.integer("refit_lights") > 0)
-    fail(
-        "direct_to_indirect.refit_lights: {} with coefficients=0: rows that keep every coefficient have "
-        "nothing to refit; valid: 0",
-        knobs.integer("refit_lights"));
+  for (const char* kept : {"coefficients", "glossy_coefficients"})
+    if (knobs.integer(kept) == 0 && knobs.integer("refit_lights") > 0)
+      fail(
+          "direct_to_indirect.refit_lights: {} with {}=0: rows that keep every coefficient have nothing to "
+          "refit; valid: 0",
+          knobs.integer("refit_lights"), kept);
 }
 
 Artefact precompute(const PrepareContext& context) {
