@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export RELIGHT_CACHE=$work/cache
 export RELIGHT_SHARED_SCENES=${RELIGHT_SHARED_SCENES:-$source_dir/../shared/scenes}
-ln -s "$source_dir"/{scenes,reference,reproduce,check} "$work"
+ln -s "$source_dir"/{scenes,experiments,reference,reproduce,check} "$work"
 cd "$work"
 
 # Lines of the ```sh blocks, with continued lines joined.
