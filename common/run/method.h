@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/image/image.h"
@@ -47,6 +48,14 @@ struct Relit {
   Image indirect;  // likewise, after reconstruction
   Image total;     // direct + indirect
 };
+
+// From two images of one size.
+inline Relit with_total(Image direct, Image indirect) {
+  Relit relit{std::move(direct), std::move(indirect), {}};
+  relit.total = relit.direct;
+  for (size_t i = 0; i < relit.total.pixels.size(); ++i) relit.total.pixels[i] += relit.indirect.pixels[i];
+  return relit;
+}
 
 class Prepared {
  public:

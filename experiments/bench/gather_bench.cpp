@@ -5,40 +5,38 @@
 #include "experiments/bench/timing.h"
 #include "experiments/session/session.h"
 #include "experiments/usage_error.h"
+#include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/hierarchy.h"
+#include "methods/direct_to_indirect/view_tiles.h"
 
 namespace relight {
 namespace {
 
 using namespace direct_to_indirect;
 
-constexpr int side = 4;  // of a tile
 // A link has a tenth of the rays of every pair: as many more tiles take about as long.
 constexpr int more_tiles_with_links = 8;
 
-// Keeps `wanted` tiles of the view spread evenly, makes all other view samples invalid. Returns how many
-// valid view samples are left.
-int64_t keep_tiles(DeepFrameBuffer& buffer, int wanted) {
-  const int across = (buffer.view.width + side - 1) / side, down = (buffer.view.height + side - 1) / side;
-  const int64_t tiles = int64_t{across} * down;
-  int64_t valid = 0;
-  for (int y = 0; y < buffer.view.height; ++y) {
-    for (int x = 0; x < buffer.view.width; ++x) {
-      const int64_t tile = int64_t{y / side} * across + x / side;
-      const bool kept = (tile + 1) * wanted / tiles != tile * wanted / tiles;
-      SurfaceSample& s = buffer.indirect[static_cast<size_t>(y * buffer.view.width + x)];
-      if (!kept) s.valid = false;
-      valid += s.valid ? 1 : 0;
+// `wanted` tiles spread evenly, as FinalGatherInput::tiles, and how many view samples they and all tiles
+// hold.
+struct ChosenTiles {
+  std::vector<uint8_t> mask;
+  int64_t rows = 0, all_rows = 0;
+};
+
+ChosenTiles choose_tiles(const DeepFrameBuffer& buffer, int wanted) {
+  const ViewTiles tiles(buffer);
+  ChosenTiles chosen;
+  for (int64_t t = 0; t < tiles.count(); ++t) {
+    const bool kept = (t + 1) * wanted / tiles.count() != t * wanted / tiles.count();
+    chosen.mask.push_back(kept ? 1 : 0);
+    for (const SurfaceSample* s : tiles.samples(static_cast<int>(t))) {
+      const int64_t row = s && s->valid ? 1 : 0;
+      chosen.all_rows += row, chosen.rows += kept ? row : 0;
     }
   }
-  return valid;
-}
-
-int64_t valid_samples(const DeepFrameBuffer& buffer) {
-  int64_t valid = 0;
-  for (const SurfaceSample& s : buffer.indirect) valid += s.valid ? 1 : 0;
-  return valid;
+  return chosen;
 }
 
 struct Case {
@@ -49,8 +47,7 @@ struct Case {
 
 std::string measure(Session& session, const GatherCloud& cloud, const GatherHierarchy& hierarchy,
                     const Case& c, int repeats) {
-  DeepFrameBuffer buffer = session.buffer();
-  const int64_t all = valid_samples(buffer), kept = keep_tiles(buffer, c.tiles);
+  const ChosenTiles tiles = choose_tiles(session.buffer(), c.tiles);
   FinalGatherSettings settings;
   settings.link_threshold = c.link_threshold;
   settings.seed = session.options().seed;
@@ -58,7 +55,9 @@ std::string measure(Session& session, const GatherCloud& cloud, const GatherHier
   StageLog log;
   const TrainingLights no_training;
   const auto gather = [&] {
-    compute_final_gather({session.tracer(), buffer, cloud, hierarchy, {}, no_training}, settings, quiet, log);
+    compute_final_gather(
+        {session.tracer(), session.buffer(), cloud, hierarchy, {}, no_training, nullptr, nullptr, tiles.mask},
+        settings, quiet, log);
   };
   RayLog rays;
   session.tracer().set_log(&rays);
@@ -72,11 +71,12 @@ std::string measure(Session& session, const GatherCloud& cloud, const GatherHier
     share.push_back(r.wall / g.wall), cpu_share.push_back(r.cpu / g.cpu);
   }
   const double million = 1e-6 * static_cast<double>(replay.counts().total());
-  const double view_share = static_cast<double>(kept) / static_cast<double>(std::max<int64_t>(all, 1));
+  const auto rows = static_cast<double>(std::max<int64_t>(tiles.rows, 1));
+  const double view_share = rows / static_cast<double>(std::max<int64_t>(tiles.all_rows, 1));
   return fmt::format("{:12} {:8} {:10.0f} {:10.1f} {:10.1f} {:7.2f} ({}) {:7.2f} ({}) {:12.0f}\n", c.name,
-                     kept, 1e6 * million / static_cast<double>(std::max<int64_t>(kept, 1)),
-                     million / median(whole), million / median(raw), median(share), spread(share),
-                     median(cpu_share), spread(cpu_share), median(whole) / view_share);
+                     tiles.rows, 1e6 * million / rows, million / median(whole), million / median(raw),
+                     median(share), spread(share), median(cpu_share), spread(cpu_share),
+                     median(whole) / view_share);
 }
 
 }  // namespace
@@ -87,6 +87,7 @@ std::string run_gather_bench(const GatherBenchOptions& options) {
   if (options.repeats < 1 || options.repeats > 1000)
     usage_fail("--repeats {}: expected 1 to 1000", options.repeats);
   Session session(options.session, Session::Gpu::not_needed);
+  const KnobValues paper(make_direct_to_indirect()->knobs());
   GatherCloud cloud;
   GatherHierarchy hierarchy;
   const Seconds cloud_time = seconds_of([&] {
@@ -94,7 +95,8 @@ std::string run_gather_bench(const GatherBenchOptions& options) {
                                        options.gather_samples, session.options().seed);
   });
   const Seconds hierarchy_time = seconds_of([&] {
-    order_gather_cloud(cloud, 20.0f, session.scene().bounds.diagonal());
+    order_gather_cloud(cloud, static_cast<float>(paper.real("hierarchy_k")),
+                       session.scene().bounds.diagonal());
     hierarchy = build_hierarchy(cloud);
   });
   std::string out = fmt::format(
@@ -103,8 +105,9 @@ std::string run_gather_bench(const GatherBenchOptions& options) {
       session.scene().triangles.size(), session.buffer().view.width, session.buffer().view.height,
       cloud.samples.size(), cloud_time.wall, hierarchy_time.wall, "links", "rows", "rays a row", "Mrays/s",
       "Embree", "share of Embree", "in CPU time", "whole view s");
-  for (const Case& c :
-       {Case{"hierarchy", 0.02f, options.tiles * more_tiles_with_links}, Case{"all", 0.0f, options.tiles}})
+  for (const Case& c : {Case{"hierarchy", static_cast<float>(paper.real("link_threshold")),
+                             options.tiles * more_tiles_with_links},
+                        Case{"all", 0.0f, options.tiles}})
     out += measure(session, cloud, hierarchy, c, options.repeats);
   return out;
 }

@@ -17,8 +17,9 @@ struct GatherBenchOptions {
 
 // The gather cloud and hierarchy of the whole view, rows of some of its tiles (visibility, wavelet transform,
 // selection of 100 coefficients). Returns a table: rays a view sample, Mrays/s of the gather and of Embree
-// alone on the same packets in the same order, the share, and the time that the whole view would take. Throws
-// UsageError.
+// alone on the same packets in the same order, the share, and the time that the whole view would take. Embree
+// replays the packets thread by thread: where the threads had unequal parts it waits for the larger one, and
+// the share in CPU time is the one to read. Throws UsageError.
 std::string run_gather_bench(const GatherBenchOptions& options);
 
 }  // namespace relight

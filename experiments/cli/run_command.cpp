@@ -51,7 +51,6 @@ void add_run_command(CLI::App& app, Action& action) {
       "(experiments/*.toml). A run that was done before is not done again, so an interrupted experiment goes "
       "on where it stopped");
   const auto options = std::make_shared<RunOptions>();
-  options->session.view.clear();
   command->add_option("experiment", options->experiment, "TOML file")->required()->type_name("FILE");
   command->add_option("--out", options->out, "Folder of records, table and images (default out/<experiment>)")
       ->type_name("DIR");

@@ -76,9 +76,10 @@ RunRecord run_one(const PlannedRun& run, Sessions& sessions, const std::filesyst
   RunRecord record;
   record.scene = run.plan.session.scene, record.lighting = run.plan.session.lights;
   record.view = run.plan.session.view, record.seed = run.plan.session.seed;
-  record.method = run.plan.methods.front().method->name();
+  const MethodPlan& method = run.plan.methods.front();
+  record.method = method.method->name(), record.preset = method.preset, record.knobs = method.knobs.all();
   try {
-    return Comparison(run.plan, sessions.of(run)).run(run.plan.methods.front(), folder);
+    return Comparison(run.plan, sessions.of(run)).run(method, folder);
   } catch (const std::bad_alloc&) {
     record.failed_stages.push_back("out of memory");
   } catch (const std::exception& error) {

@@ -27,6 +27,8 @@ KnobTable knob_table() {
        "Everything in GLSL; all on the CPU with traced shadows; or sums in double precision on the CPU after shading on the GPU."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "shadow_maps",
        "Shadow maps or traced shadow rays; auto: maps on the GPU (paper), rays on the CPU."},
+      {"area_light_samples", integer, relight, "16", 1, 4096, {}, "direct_shading",
+       "Points that stand for a rectangle or disc, each with shadows of its own."},
       {"shadow_map_size", integer, relight, "2048", 64, 16384, {}, "shadow_maps",
        "Texels a side of a spot's shadow map and of each face of an omni's."},
   };

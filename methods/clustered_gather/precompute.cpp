@@ -1,6 +1,6 @@
 #include "methods/clustered_gather/precompute.h"
 
-#include "common/run/artefact_cache.h"
+#include "common/run/cached_artefact.h"
 #include "common/run/error.h"
 
 namespace relight::clustered_gather {
@@ -64,22 +64,9 @@ Artefact precompute(const PrepareContext& context) {
 }  // namespace
 
 Artefact load_or_precompute(const PrepareContext& context) {
-  const std::string kind = "clustered_gather.samples", key = cache_key(context);
-  {
-    StageTimer timer(context.log, "cache_load");
-    if (const auto bytes = context.cache.load(kind, key)) {
-      context.log.count("cache_hits", 1);
-      return from_bytes(*bytes);
-    }
-  }
-  Artefact artefact = precompute(context);
-  StageTimer timer(context.log, "cache_store");
-  try {
-    if (context.cache.enabled()) context.cache.store(kind, key, to_bytes(artefact));
-  } catch (const Error& error) {
-    context.log.warn(std::string("precomputed data was not cached: ") + error.what());
-  }
-  return artefact;
+  return load_or_make(
+      context, "clustered_gather.samples", cache_key(context), [&] { return precompute(context); }, to_bytes,
+      from_bytes);
 }
 
 }  // namespace relight::clustered_gather

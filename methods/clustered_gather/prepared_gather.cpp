@@ -7,44 +7,12 @@
 #include "common/gpu/texel_view.h"
 #include "common/gpu/timer.h"
 #include "common/shading/cached_direct_light.h"
+#include "common/shading/lit_samples.h"
 #include "common/shading/reconstruction.h"
 #include "methods/clustered_gather/sums_cpu.h"
 
 namespace relight::clustered_gather {
 namespace {
-
-// Direct light on the gather samples and on the view's sub-samples, a vec4 each.
-struct DirectLight {
-  gpu::Buffer gather, view;
-
-  int64_t bytes() const { return gather.bytes() + view.bytes(); }
-};
-
-// What is lit, and by what; see CachedDirectLight.
-struct LitSamples {
-  GpuSamples gather, view;
-  DirectLighting lighting;
-
-  LitSamples(const PrepareContext& context, const GatherSamples& samples)
-      : gather(samples.samples, context.buffer.view.camera.eye),
-        view(context.buffer.direct, context.buffer.view.camera.eye),
-        lighting(context.gpu, context.scene, context.tracer,
-                 {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
-                  static_cast<int>(context.knobs.integer("shadow_map_size"))}) {}
-
-  DirectLight make() const {
-    return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
-            gpu::Buffer(static_cast<int64_t>(view.size()) * 16)};
-  }
-  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
-    lighting.shade(lights, {{&gather, Lobes::diffuse, &out.gather}, {&view, Lobes::all, &out.view}}, onto,
-                   log);
-  }
-  void copy(const DirectLight& from, DirectLight& to) const {
-    to.gather.copy_from(from.gather);
-    to.view.copy_from(from.view);
-  }
-};
 
 // The links of one part on the GPU, two a texel, the last of an odd number with weight 0.
 class GpuLinks {
@@ -100,7 +68,8 @@ class PreparedGather : public Prepared {
  public:
   PreparedGather(const PrepareContext& context, Artefact artefact)
       : oracle_(context.knobs.choice("device") == "oracle"),
-        samples_(context, artefact.gather),
+        samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
+                 artefact.gather.samples),
         direct_(samples_.make()),
         first_(gpu::Buffer::from(artefact.gather.first)),
         albedo_(gpu::Buffer::from(albedo(context.buffer))),
@@ -122,16 +91,13 @@ class PreparedGather : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
-    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    const LitSamplesGpuResult& direct = direct_.shade(samples_, lighting, log);
     if (oracle_)
       sum_in_double(direct.gather, log);
     else
       sum_on_gpu(direct.gather, log);
     Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
-    Relit out{std::move(images.direct), std::move(images.indirect), {}};
-    out.total = out.direct;
-    for (size_t i = 0; i < out.total.pixels.size(); ++i) out.total.pixels[i] += out.indirect.pixels[i];
-    return out;
+    return with_total(std::move(images.direct), std::move(images.indirect));
   }
   void forget() override { direct_.forget(); }
 
@@ -163,8 +129,8 @@ class PreparedGather : public Prepared {
 
   bool oracle_;
   SumsCpu host_;  // of the oracle only
-  LitSamples samples_;
-  CachedDirectLight<DirectLight> direct_;
+  LitSamplesGpu samples_;
+  CachedDirectLight<LitSamplesGpuResult> direct_;
   gpu::Buffer first_, albedo_, gathered_, indirect_;
   gpu::Program sum_;
   std::vector<GpuLinks> links_;

@@ -1,46 +1,17 @@
 #include "common/run/error.h"
-#include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
+#include "common/shading/lit_samples_cpu.h"
 #include "methods/clustered_gather/prepared_gather.h"
 #include "methods/clustered_gather/sums_cpu.h"
 
 namespace relight::clustered_gather {
 namespace {
 
-// Direct light on the gather samples and, filtered to pixels, on the view.
-struct DirectLight {
-  std::vector<glm::vec4> gather, view;
-
-  int64_t bytes() const { return static_cast<int64_t>((gather.size() + view.size()) * sizeof(glm::vec4)); }
-};
-
-// What is lit, and by what; see CachedDirectLight.
-struct LitSamples {
-  SampleBlocks gather, view;
-  BlockLighting lighting;
-
-  LitSamples(const PrepareContext& context, const GatherSamples& samples)
-      : gather(samples.samples, sequential_order(samples.samples.size()), context.buffer.view.camera.eye),
-        view(context.buffer.direct, pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
-             context.buffer.view.camera.eye),
-        lighting(context.tracer) {}
-
-  DirectLight make() const {
-    return {std::vector<glm::vec4>(gather.count() * block_lanes),
-            std::vector<glm::vec4>(view.count() * block_lanes / 4)};
-  }
-  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
-    lighting.shade(lights, {{&gather, Lobes::diffuse, 1, out.gather}, {&view, Lobes::all, 4, out.view}}, onto,
-                   log);
-  }
-  void copy(const DirectLight& from, DirectLight& to) const { to = from; }
-};
-
 class PreparedGatherCpu : public Prepared {
  public:
   PreparedGatherCpu(const PrepareContext& context, Artefact artefact)
-      : samples_(context, artefact.gather),
+      : samples_("clustered_gather", context.tracer, context.buffer, context.knobs, artefact.gather.samples),
         direct_(samples_.make()),
         sums_(std::move(artefact), context.buffer),
         reconstruction_(context.buffer) {
@@ -51,7 +22,7 @@ class PreparedGatherCpu : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
-    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    const LitSamplesCpuResult& direct = direct_.shade(samples_, lighting, log);
     std::vector<glm::vec3> gathered;
     {
       const StageTimer timer(log, "indirect_sum");
@@ -68,8 +39,8 @@ class PreparedGatherCpu : public Prepared {
   void forget() override { direct_.forget(); }
 
  private:
-  LitSamples samples_;
-  CachedDirectLight<DirectLight> direct_;
+  LitSamplesCpu samples_;
+  CachedDirectLight<LitSamplesCpuResult> direct_;
   SumsCpu sums_;
   FusedReconstruction reconstruction_;
 };
@@ -77,8 +48,6 @@ class PreparedGatherCpu : public Prepared {
 }  // namespace
 
 std::unique_ptr<Prepared> make_prepared_gather_cpu(const PrepareContext& context, Artefact artefact) {
-  if (context.knobs.choice("shadows") == "map")
-    fail("clustered_gather.shadows: 'map' needs the GPU; valid with device=cpu: auto, traced");
   return std::make_unique<PreparedGatherCpu>(context, std::move(artefact));
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/run/artefact_cache.h"
+#include "common/run/cached_artefact.h"
 #include "common/run/error.h"
 #include "methods/direct_to_indirect/column_scaling.h"
 #include "methods/direct_to_indirect/final_gather.h"
@@ -133,22 +133,9 @@ Artefact precompute(const PrepareContext& context) {
 
 Artefact load_or_precompute(const PrepareContext& context) {
   check(context.knobs);
-  const std::string kind = "direct_to_indirect.final_gather", key = cache_key(context);
-  {
-    StageTimer timer(context.log, "cache_load");
-    if (const auto bytes = context.cache.load(kind, key)) {
-      context.log.count("cache_hits", 1);
-      return from_bytes(*bytes);
-    }
-  }
-  Artefact artefact = precompute(context);
-  StageTimer timer(context.log, "cache_store");
-  try {
-    if (context.cache.enabled()) context.cache.store(kind, key, to_bytes(artefact));
-  } catch (const Error& error) {
-    context.log.warn(std::string("precomputed data was not cached: ") + error.what());
-  }
-  return artefact;
+  return load_or_make(
+      context, "direct_to_indirect.final_gather", cache_key(context), [&] { return precompute(context); },
+      to_bytes, from_bytes);
 }
 
 }  // namespace relight::direct_to_indirect

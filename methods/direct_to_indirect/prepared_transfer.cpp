@@ -6,8 +6,8 @@
 #include "common/gpu/timer.h"
 #include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
-#include "common/sampling/pixel_subset.h"
 #include "common/shading/cached_direct_light.h"
+#include "common/shading/lit_samples.h"
 #include "common/shading/reconstruction.h"
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
@@ -18,40 +18,6 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-// Direct light on the gather samples and on the view's sub-samples, a vec4 each.
-struct DirectLight {
-  gpu::Buffer gather, view;
-
-  int64_t bytes() const { return gather.bytes() + view.bytes(); }
-};
-
-// What is lit, and by what; see CachedDirectLight.
-struct LitSamples {
-  GpuSamples gather, view;
-  DirectLighting lighting;
-
-  LitSamples(const PrepareContext& context, const GatherCloud& cloud)
-      : gather(cloud.samples, context.buffer.view.camera.eye),
-        view(wanted_direct_samples(context.buffer), context.buffer.view.camera.eye),
-        lighting(context.gpu, context.scene, context.tracer,
-                 {context.knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
-                  static_cast<int>(context.knobs.integer("shadow_map_size")),
-                  static_cast<int>(context.knobs.integer("area_light_samples"))}) {}
-
-  DirectLight make() const {
-    return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
-            gpu::Buffer(static_cast<int64_t>(view.size()) * 16)};
-  }
-  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
-    lighting.shade(lights, {{&gather, Lobes::diffuse, &out.gather}, {&view, Lobes::all, &out.view}}, onto,
-                   log);
-  }
-  void copy(const DirectLight& from, DirectLight& to) const {
-    to.gather.copy_from(from.gather);
-    to.view.copy_from(from.view);
-  }
-};
-
 class PreparedTransfer : public Prepared {
  public:
   PreparedTransfer(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
@@ -59,7 +25,8 @@ class PreparedTransfer : public Prepared {
         kd_(diffuse_albedo(grid)),
         kg_(glossy_colours(grid.samples(), matrix_.glossy_pixels)),
         oracle_(context.knobs.choice("device") == "oracle"),
-        samples_(context, artefact.cloud),
+        samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
+                 artefact.cloud.samples),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
         reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
@@ -80,16 +47,13 @@ class PreparedTransfer : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
-    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    const LitSamplesGpuResult& direct = direct_.shade(samples_, lighting, log);
     if (oracle_)
       transfer_in_double(direct.gather, log);
     else
       transfer_on_gpu(direct.gather, log);
     Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
-    Relit out{std::move(images.direct), std::move(images.indirect), {}};
-    out.total = out.direct;
-    for (size_t i = 0; i < out.total.pixels.size(); ++i) out.total.pixels[i] += out.indirect.pixels[i];
-    return out;
+    return with_total(std::move(images.direct), std::move(images.indirect));
   }
   void forget() override { direct_.forget(); }
 
@@ -172,11 +136,11 @@ class PreparedTransfer : public Prepared {
   FinalGather matrix_;              // empty once products are made of it
   std::vector<glm::vec3> kd_, kg_;  // of all pixels, of the glossy ones
   bool oracle_;
-  LitSamples samples_;
+  LitSamplesGpu samples_;
   wavelet::HaarGpu haar_;
   Reconstruction reconstruction_;
   std::optional<MultiBounceLight> bounces_;  // none with one bounce
-  CachedDirectLight<DirectLight> direct_;
+  CachedDirectLight<LitSamplesGpuResult> direct_;
   gpu::Buffer indirect_;
   std::unique_ptr<TransferProductGpu> product_;      // none for the oracle
   std::optional<PartialProductGpu> glossy_product_;  // none without glossy pixels

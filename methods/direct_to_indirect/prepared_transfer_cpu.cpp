@@ -5,10 +5,9 @@
 #include "common/linalg/partial_product.h"
 #include "common/linalg/product_list.h"
 #include "common/run/error.h"
-#include "common/sampling/pixel_subset.h"
-#include "common/shading/block_lighting.h"
 #include "common/shading/cached_direct_light.h"
 #include "common/shading/fused_reconstruction.h"
+#include "common/shading/lit_samples_cpu.h"
 #include "common/wavelet/haar_cpu.h"
 #include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
@@ -17,40 +16,10 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-// Direct light on the gather samples and, filtered to pixels, on the view.
-struct DirectLight {
-  std::vector<glm::vec4> gather, view;
-
-  int64_t bytes() const { return static_cast<int64_t>((gather.size() + view.size()) * sizeof(glm::vec4)); }
-};
-
-// What is lit, and by what; see CachedDirectLight.
-struct LitSamples {
-  SampleBlocks gather, view;
-  BlockLighting lighting;
-
-  LitSamples(const PrepareContext& context, const GatherCloud& cloud)
-      : gather(cloud.samples, sequential_order(cloud.samples.size()), context.buffer.view.camera.eye),
-        view(wanted_direct_samples(context.buffer),
-             pixel_quad_order(context.buffer.view.width, context.buffer.view.height),
-             context.buffer.view.camera.eye),
-        lighting(context.tracer, static_cast<int>(context.knobs.integer("area_light_samples"))) {}
-
-  DirectLight make() const {
-    return {std::vector<glm::vec4>(gather.count() * block_lanes),
-            std::vector<glm::vec4>(view.count() * block_lanes / 4)};
-  }
-  void shade(const std::vector<Light>& lights, DirectLight& out, Onto onto, StageLog& log) {
-    lighting.shade(lights, {{&gather, Lobes::diffuse, 1, out.gather}, {&view, Lobes::all, 4, out.view}}, onto,
-                   log);
-  }
-  void copy(const DirectLight& from, DirectLight& to) const { to = from; }
-};
-
 class PreparedTransferCpu : public Prepared {
  public:
   PreparedTransferCpu(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
-      : samples_(context, artefact.cloud),
+      : samples_("direct_to_indirect", context.tracer, context.buffer, context.knobs, artefact.cloud.samples),
         haar_(artefact.cloud.samples.size()),
         product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather.diffuse,
                                   diffuse_albedo(grid), picture_shape(grid),
@@ -77,7 +46,7 @@ class PreparedTransferCpu : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
-    const DirectLight& direct = direct_.shade(samples_, lighting, log);
+    const LitSamplesCpuResult& direct = direct_.shade(samples_, lighting, log);
     std::span<const glm::vec4> light = std::span(direct.gather).first(coefficients_.size());
     if (bounces_) {
       const StageTimer timer(log, "multi_bounce");
@@ -112,21 +81,19 @@ class PreparedTransferCpu : public Prepared {
                              product_settings(context.knobs, grid));
   }
 
-  LitSamples samples_;
+  LitSamplesCpu samples_;
   wavelet::HaarCpu haar_;
   std::unique_ptr<TransferProduct> product_;
   std::optional<PartialProductCpu> glossy_product_;  // none without glossy pixels
   FusedReconstruction reconstruction_;
   std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
-  CachedDirectLight<DirectLight> direct_;
+  CachedDirectLight<LitSamplesCpuResult> direct_;
   std::vector<glm::vec4> coefficients_, indirect_;
 };
 
 }  // namespace
 
 std::unique_ptr<Prepared> make_prepared_transfer_cpu(const PrepareContext& context, Artefact artefact) {
-  if (context.knobs.choice("shadows") == "map")
-    fail("direct_to_indirect.shadows: 'map' needs the GPU; valid with device=cpu: auto, traced");
   return std::make_unique<PreparedTransferCpu>(context, IndirectGrid(context.buffer, context.knobs),
                                                std::move(artefact));
 }

@@ -43,6 +43,27 @@ struct RoomGather {
   }
 };
 
+// A floor under an empty sky, seen from above.
+Scene floor_alone() {
+  Scene scene = tiny::empty_scene();
+  tiny::add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  scene.camera.eye = {0.0f, 2.0f, 0.1f};
+  scene.camera.target = glm::vec3(0.0f);
+  finish_scene(scene);
+  return scene;
+}
+
+// A closed box of diffuse albedo 0.6, seen from inside.
+Scene closed_box(const GlossyPart& part = {}) {
+  Scene scene = tiny::empty_scene(glm::vec3(0.6f));
+  scene.materials[0].set_glossy_part(part);
+  tiny::add_box(scene, glm::vec3(-1.0f), glm::vec3(1.0f));
+  scene.camera.eye = {0.1f, 0.2f, 0.9f};
+  scene.camera.target = {0.0f, 0.0f, -1.0f};
+  finish_scene(scene);
+  return scene;
+}
+
 glm::dvec3 sum_of_albedos(const GatherSamples& g, size_t k) {
   glm::dvec3 sum(0.0);
   for (uint32_t i = g.first[k]; i < g.first[k + 1]; ++i) sum += glm::dvec3(g.samples[i].diffuse);
@@ -65,14 +86,7 @@ TEST(GatherSamples, ClusteringKeepsTheSumOfWeightTimesAlbedo) {
 // Inside a closed box of albedo a every ray hits, so the weights alone sum to a. Red if the weight is not
 // 1 / directions, or rays start below the surface.
 TEST(GatherSamples, OfAClosedBoxOfOneAlbedoSumToIt) {
-  RoomGather s([] {
-    Scene scene = tiny::empty_scene(glm::vec3(0.6f));
-    tiny::add_box(scene, glm::vec3(-1.0f), glm::vec3(1.0f));
-    scene.camera.eye = {0.1f, 0.2f, 0.9f};
-    scene.camera.target = {0.0f, 0.0f, -1.0f};
-    finish_scene(scene);
-    return scene;
-  }());
+  RoomGather s(closed_box());
   const GatherSamples g = s.gather(500, 40);
   for (size_t k = 0; k + 1 < g.first.size(); ++k)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum_of_albedos(g, k)[c], 0.6, 1e-5);
@@ -89,16 +103,9 @@ TEST(GatherSamples, WithOneClusterASampleAreTheUnclusteredOnes) {
   }
 }
 
-// A floor under an empty sky. Red if a miss becomes a sample.
+// Red if a miss becomes a sample.
 TEST(GatherSamples, OfAViewThatSeesNothingAreNone) {
-  RoomGather s([] {
-    Scene scene = tiny::empty_scene();
-    tiny::add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
-    scene.camera.eye = {0.0f, 2.0f, 0.1f};
-    scene.camera.target = glm::vec3(0.0f);
-    finish_scene(scene);
-    return scene;
-  }());
+  RoomGather s(floor_alone());
   StageLog log;
   const GatherSamples g = s.gather(100, 10, log);
   ASSERT_GT(s.view.samples.size(), 10u);
@@ -155,14 +162,7 @@ TEST(Representative, OfNormalsThatNearlyCancelKeepsAMembersNormal) {
 // A floor alone, seen with a shading normal that leans over it: half of the directions start below the floor,
 // and hit it at once from above if nobody looks. Red if they are traced.
 TEST(GatherSamples, DirectionsBelowTheGeometricSurfaceCountAsBlack) {
-  RoomGather s([] {
-    Scene scene = tiny::empty_scene();
-    tiny::add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
-    scene.camera.eye = {0.0f, 2.0f, 0.1f};
-    scene.camera.target = glm::vec3(0.0f);
-    finish_scene(scene);
-    return scene;
-  }());
+  RoomGather s(floor_alone());
   for (SurfaceSample& v : s.view.samples) v.shading_normal = glm::normalize(glm::vec3(1.0f, 0.1f, 0.0f));
   EXPECT_TRUE(s.gather(200, 0).samples.empty());
 }
@@ -188,17 +188,7 @@ double glossy_albedo(const SurfaceSample& s, const glm::vec3& eye) {
 // the mixture with the diffuse part, the cosine is missing, or the eye is looked for elsewhere.
 TEST(GatherSamples, OfTheGlossyPartSumToTheAlbedoOfItsLobe) {
   for (const GlossyPart& part : {phong_part(glm::vec3(0.3f), 20.0f), ggx_part(glm::vec3(0.5f), 0.3f, 0.3f)}) {
-    RoomGather s(
-        [&] {
-          Scene scene = tiny::empty_scene(glm::vec3(0.6f));
-          scene.materials[0].set_glossy_part(part);
-          tiny::add_box(scene, glm::vec3(-1.0f), glm::vec3(1.0f));
-          scene.camera.eye = {0.1f, 0.2f, 0.9f};
-          scene.camera.target = {0.0f, 0.0f, -1.0f};
-          finish_scene(scene);
-          return scene;
-        }(),
-        12);
+    RoomGather s(closed_box(part), 12);
     GatherSettings settings;
     settings.directions = 4000;
     settings.clusters = 30;

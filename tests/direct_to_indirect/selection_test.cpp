@@ -43,7 +43,7 @@ std::vector<Candidate> sorted_all(const std::vector<LaneCoefficient>& all, size_
 
 // Tried, each red: `>` for `>=` in the comparison with the least weight (ties lost); the largest weight kept
 // taken for the least; one lane's factor for all; the level of a coefficient off by one.
-TEST(Selection, findsTheHeaviestOfEachLaneWithTiesGoingToTheSmallerColumn) {
+TEST(Selection, FindsTheHeaviestOfEachLaneWithTiesGoingToTheSmallerColumn) {
   const std::vector<LaneCoefficient> all = coefficients(3);
   Lanes factor;
   for (size_t i = 0; i < lanes; ++i) factor[i] = 1.0f + static_cast<float>(i % 3);
@@ -75,7 +75,7 @@ TEST(Selection, findsTheHeaviestOfEachLaneWithTiesGoingToTheSmallerColumn) {
 }
 
 // Red if the square is taken of the weight, or the smallest come first.
-TEST(Selection, takesAsManyOfTheHeaviestAsHoldTheEnergy) {
+TEST(Selection, TakesAsManyOfTheHeaviestAsHoldTheEnergy) {
   std::vector<Candidate> candidates = {{1.0f, {4, 1.0f}}, {8.0f, {1, 2.0f}}, {3.0f, {2, 3.0f}}};
   EXPECT_EQ(count_for_energy(candidates, 4.0), 1u);
   EXPECT_EQ(count_for_energy(candidates, 4.1), 2u);
