@@ -1,9 +1,9 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Hasan, Pellacini, Bala 2006, table 2 and section 3.7, beside what was measured here, as a Markdown table.
 
 Reads the table.csv of `relight run experiments/hasan2006_table2.toml`; writes nothing but its output:
 
-    paper_figs/hasan2006_table2.py out/hasan2006_table2/table.csv > results/hasan2006_table2/README.md
+    paper_figs/hasan2006_table2.py out/hasan2006_table2/table.csv [remark] > results/hasan2006_table2/README.md
 """
 import csv
 import os
@@ -113,7 +113,7 @@ def main():
           f"wrote on: {cpus}, two cores, OSMesa (no GPU); commits {commits}. 640x480, 65,536 gather samples, 100 "
           "coefficients, one bounce. The paper: GeForce 7800, Pentium 4; its scenes are other models of the same kind, "
           "except Sponza. Stored MB: the product's form (8 bits; `best` 16). Frame rates are of the median of five relights; "
-          "culling on is `cull_epsilon=0.0001`, off is -1.\n")
+          "culling on is `cull_epsilon=0.0001`, off is -1." + "".join(f" {r}" for r in sys.argv[2:]) + "\n")
     costs(rows, scenes, presets)
     stages(rows, scenes, presets)
     errors(rows, scenes, presets)
