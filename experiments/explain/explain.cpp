@@ -7,7 +7,7 @@
 
 #include "common/image/metrics.h"
 #include "common/run/peak_memory.h"
-#include "experiments/compare/not_simulated.h"
+#include "experiments/compare/method_record.h"
 #include "reference/path_tracer.h"
 
 namespace relight {
@@ -105,21 +105,12 @@ PathTracerResult trace_reference(const ExplainPlan& plan, Session& session, cons
 }
 
 RunRecord describe(const ExplainPlan& plan, Session& session) {
-  const Scene& scene = session.scene();
-  RunRecord run;
-  run.scene = plan.session.scene, run.view = plan.session.view, run.lighting = session.lighting_name();
-  run.method = plan.method.method->name(), run.knobs = plan.method.knobs.all();
-  run.seed = plan.session.seed;
-  run.light_paths = run.reference_paths = plan.method.paths.to_string();
-  run.not_simulated = not_simulated(plan.method.paths, scene, session.lighting());
+  const ComparePlan same_run{plan.session,           {plan.method},           plan.out,    std::nullopt,
+                             plan.reference_samples, Estimator::light_vertex, plan.repeats};
+  RunRecord run = describe_run(same_run, plan.method, session);
   run.command = command_line(plan, session.lighting_name());
-  run.exposure = static_cast<double>(scene.exposure);
-  run.width = session.buffer().view.width, run.height = session.buffer().view.height;
-  run.triangles = static_cast<int64_t>(scene.triangles.size());
-  run.scene_hash = fmt::format("{:016x}", scene.content_hash);
   run.setup_stages = session.setup().stages();
-  run.warnings = scene.repairs.warnings;
-  run.provenance = collect_provenance(session.gpu()->renderer(), session.gpu()->version());
+  run.warnings = session.scene().repairs.warnings;
   return run;
 }
 
