@@ -26,9 +26,10 @@ std::string page(const RecordFile& file, const std::filesystem::path& folder) {
              "{}</p></header>\n",
              title, style_sheet, title, count_text(first.triangles), escaped(first.provenance.date)) +
          results_section(records) + "\n" + paths_section(records) + "\n" + pictures_section(records, folder) +
+         "\n" + viewer_section(records, folder) +
          "\n" + times_section(records) + "\n" + settings_section(records) + "\n" +
          origin_section(records, file.warnings) +
-         fmt::format("\n<div id=large></div><script>{}</script></body></html>\n", script);
+         fmt::format("\n<div id=large></div><script>{}{}</script></body></html>\n", script, viewer_script);
 }
 
 }  // namespace
