@@ -23,6 +23,7 @@ class LossEstimator {
   // everything: for each group, 1 if it is part of the whole picture. `light` must outlive this; at least three
   // replicates.
   LossEstimator(const LightByGroup& light, std::vector<uint8_t> everything, double exposure);
+  LossEstimator(LightByGroup&&, std::vector<uint8_t>, double) = delete;
 
   // Of the groups marked 1.
   LossInterval lost(const std::vector<uint8_t>& groups) const;

@@ -1,4 +1,6 @@
 // Which classes a choice of levels carries.
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "common/run/error.h"

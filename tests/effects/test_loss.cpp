@@ -31,7 +31,8 @@ double true_loss(double kept, double lost) {
 }
 
 TEST(Loss, WithoutNoiseTheLossIsTheQuotientOfTheNorms) {
-  const LossEstimator estimator(two_groups(8, 0.3f, 0.1f, 0.0f, 1), {1, 1}, 1.0);
+  const LightByGroup light = two_groups(8, 0.3f, 0.1f, 0.0f, 1);
+  const LossEstimator estimator(light, {1, 1}, 1.0);
   const LossInterval loss = estimator.lost(std::vector<uint8_t>{0, 1});
   EXPECT_NEAR(loss.value, 0.25, 1e-6);
   EXPECT_NEAR(loss.low, loss.high, 1e-6);
@@ -40,9 +41,10 @@ TEST(Loss, WithoutNoiseTheLossIsTheQuotientOfTheNorms) {
 
 // Red if lost light counts that the clamp hides (tried: without the excess: 0.4).
 TEST(Loss, LightAboveTheClampIsNotLost) {
-  const LossEstimator estimator(two_groups(8, 0.8f, 0.4f, 0.0f, 1), {1, 1}, 1.0);
+  const LightByGroup light = two_groups(8, 0.8f, 0.4f, 0.0f, 1);
+  const LossEstimator estimator(light, {1, 1}, 1.0);
   EXPECT_NEAR(estimator.lost(std::vector<uint8_t>{0, 1}).value, 0.2, 1e-6);
-  const LossEstimator bright(two_groups(8, 0.8f, 0.4f, 0.0f, 1), {1, 1}, 2.0);
+  const LossEstimator bright(light, {1, 1}, 2.0);
   EXPECT_EQ(bright.lost(std::vector<uint8_t>{0, 1}).high, 0.0);
   Image lacking(16, 16);
   for (glm::vec3& p : lacking.pixels) p = glm::vec3(0.3f);
