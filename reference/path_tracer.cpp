@@ -29,7 +29,8 @@ void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   const LightPaths& paths = settings.paths;
   const bool none = paths.min_bounces == 1 && paths.max_bounces == 0;
   if (!none && (paths.min_bounces < 0 || paths.max_bounces < paths.min_bounces))
-    fail("path tracer: bounces {}..{}; needed are 0 <= min <= max, or 1..0 for direct light alone", paths.min_bounces, paths.max_bounces);
+    fail("path tracer: bounces {}..{}; needed are 0 <= min <= max, or 1..0 for direct light alone",
+         paths.min_bounces, paths.max_bounces);
   if (settings.area_samples < 2 || settings.area_samples % 2 != 0)
     fail("path tracer: area_samples = {}; it must be even and at least 2", settings.area_samples);
   if (!(settings.time_limit_s >= 0.0))

@@ -19,7 +19,8 @@ struct LossInterval {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-// rule: the scene, the light or the view makes it certain; pilot: a small path trace; user: --effect or --set.
+// rule: the scene, the light or the view makes it certain; pilot: a small path trace; user: --effect or
+// --set.
 enum class DecidedBy { rule, pilot, user };
 std::string to_string(DecidedBy by);
 
@@ -46,7 +47,8 @@ struct EverythingRun {
   double precompute_s = 0.0, planned_precompute_s = 0.0;
   double relight_ms = 0.0, planned_relight_ms = 0.0;  // medians
   int64_t bytes = 0, planned_bytes = 0;               // sums of memory_bytes by artefact
-  double picture_change = 0.0;  // |planned - everything|_2 / |everything|_2 of the method's own pictures, clamped
+  double picture_change =
+      0.0;  // |planned - everything|_2 / |everything|_2 of the method's own pictures, clamped
 };
 
 // kept: the measured interval lies below the tolerance; broken: above it; open: it holds the tolerance.
@@ -69,7 +71,8 @@ struct EffectPlan {
   std::vector<LightNote> lights;
   std::string everything;  // light paths of all last levels, in words
   LossInterval loss;       // of the whole plan
-  // Light of even more bounces than everything has, as a share of the picture with them; absent: not measured.
+  // Light of even more bounces than everything has, as a share of the picture with them; absent: not
+  // measured.
   std::optional<LossInterval> beyond;
   // The pilot; samples 0: rules decided everything.
   int pilot_width = 0, pilot_height = 0;

@@ -32,15 +32,9 @@ std::optional<LossInterval> loss_if(const Json& json, const char* name) {
 }
 
 Json to_json(const EffectDecision& d) {
-  Json json = {{"effect", d.effect},
-               {"sentence", d.sentence},
-               {"level", d.level},
-               {"everything", d.everything},
-               {"decided_by", to_string(d.by)},
-               {"reason", d.reason},
-               {"loss", to_json(d.loss)},
-               {"undecided", d.undecided},
-               {"settings", Json::object()}};
+  Json json = {{"effect", d.effect},         {"sentence", d.sentence},        {"level", d.level},
+               {"everything", d.everything}, {"decided_by", to_string(d.by)}, {"reason", d.reason},
+               {"loss", to_json(d.loss)},    {"undecided", d.undecided},      {"settings", Json::object()}};
   for (const auto& [knob, value] : d.settings) json["settings"][knob] = value;
   if (d.next_loss) json["next_loss"] = to_json(*d.next_loss);
   if (d.measured) json["measured"] = to_json(*d.measured);

@@ -4,8 +4,7 @@ namespace relight {
 
 Effect bounces_effect(const std::string& knob, int most) {
   Effect effect{"bounces", "Bounces of indirect light; 0: direct light alone.", {}};
-  for (int n = 0; n <= most; ++n)
-    effect.levels.push_back({std::to_string(n), {{knob, std::to_string(n)}}});
+  for (int n = 0; n <= most; ++n) effect.levels.push_back({std::to_string(n), {{knob, std::to_string(n)}}});
   return effect;
 }
 

@@ -1,6 +1,6 @@
-// Effects that a method can leave out, as the method itself tells them: levels from the least work to the most,
-// each with the knob values that make it. The effect planner (docs/effects.md) needs nothing else to decide
-// what a scene calls for; it knows no method by name.
+// Effects that a method can leave out, as the method itself tells them: levels from the least work to the
+// most, each with the knob values that make it. The effect planner (docs/effects.md) needs nothing else to
+// decide what a scene calls for; it knows no method by name.
 #pragma once
 
 #include <functional>

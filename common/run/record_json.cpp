@@ -151,8 +151,7 @@ RunRecord record_from(const Json& json) {
   json.at("height").get_to(record.height);
   json.at("triangles").get_to(record.triangles);
   json.at("scene_hash").get_to(record.scene_hash);
-  if (json.contains("effect_plan"))
-    record.effect_plan = effect_plan_from_json(json["effect_plan"].dump());
+  if (json.contains("effect_plan")) record.effect_plan = effect_plan_from_json(json["effect_plan"].dump());
   if (json.contains("errors")) record.errors = errors_from_json(json["errors"]);
   if (json.contains("errors_indirect")) record.errors_indirect = errors_from_json(json["errors_indirect"]);
   time_from_json(json.at("time"), record);

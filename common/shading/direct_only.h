@@ -9,8 +9,8 @@
 
 namespace relight {
 
-// knobs: device (cpu, or the GPU), shadows, shadow_map_size, area_light_samples. Error, with the method's name,
-// for shadows=map with device=cpu.
+// knobs: device (cpu, or the GPU), shadows, shadow_map_size, area_light_samples. Error, with the method's
+// name, for shadows=map with device=cpu.
 std::unique_ptr<Prepared> make_direct_only(const std::string& method, const PrepareContext& context);
 
 }  // namespace relight

@@ -19,9 +19,9 @@ LightingState lights_with_area(const LightingState& lighting) {
 
 Image direct_light(const EffectSite& site, const LightingState& lighting, int samples) {
   const View& view = site.buffer.view;
-  return box_filter_2x2(shade_direct_cpu(site.tracer, site.buffer.direct, view.camera.eye, lighting, Lobes::all,
-                                         samples),
-                        view.width, view.height);
+  return box_filter_2x2(
+      shade_direct_cpu(site.tracer, site.buffer.direct, view.camera.eye, lighting, Lobes::all, samples),
+      view.width, view.height);
 }
 
 std::vector<Image> lacks(const EffectSite& site) {
@@ -41,7 +41,8 @@ Effect soft_shadows_effect(const std::string& knob) {
   for (const int n : points) effect.levels.push_back({std::to_string(n), {{knob, std::to_string(n)}}});
   effect.lacks = lacks;
   effect.needless = [](const EffectSite& site) -> std::string {
-    return lights_with_area(site.lighting).lights.empty() ? "no light has an area, so all shadows are sharp" : "";
+    return lights_with_area(site.lighting).lights.empty() ? "no light has an area, so all shadows are sharp"
+                                                          : "";
   };
   return effect;
 }

@@ -45,7 +45,8 @@ void add_plan_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "plan",
       "Which effects a method should compute on a scene, lighting and view so that what it leaves out stays "
-      "below a tolerance: rules first, then a small path trace. `compare`, `render` and `run` do the same with "
+      "below a tolerance: rules first, then a small path trace. `compare`, `render` and `run` do the same "
+      "with "
       "--tolerance. See docs/effects.md");
   const auto options = std::make_shared<PlanOptions>();
   options->effects.tolerance = "1%";

@@ -57,9 +57,10 @@ void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::str
 
 void add_effect_flags(CLI::App& command, EffectOptions& options) {
   command
-      .add_option("--tolerance", options.tolerance,
-                  "Leave out effects that the scene does not call for, up to this share of the picture, e.g. 1% "
-                  "(see `relight plan`); absent: knobs decide")
+      .add_option(
+          "--tolerance", options.tolerance,
+          "Leave out effects that the scene does not call for, up to this share of the picture, e.g. 1% "
+          "(see `relight plan`); absent: knobs decide")
       ->type_name("SHARE");
   command
       .add_option("--effect", options.effects,

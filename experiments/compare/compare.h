@@ -23,8 +23,8 @@ class Comparison {
  public:
   // Both must outlive this; of the plan, `methods` is not used and `out` only in the records' commands.
   Comparison(const ComparePlan& plan, Session& session) : plan_(plan), session_(session) {}
-  // Plans effects first if the plan says so. Writes the images into `folder`. A method that fails makes a record with failed_stages; Error if the
-  // images cannot be written.
+  // Plans effects first if the plan says so. Writes the images into `folder`. A method that fails makes a
+  // record with failed_stages; Error if the images cannot be written.
   RunRecord run(const MethodPlan& method, const std::filesystem::path& folder);
 
  private:

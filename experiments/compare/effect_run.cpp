@@ -8,7 +8,7 @@ namespace relight {
 namespace {
 
 EffectRequest request_for(const EffectPlanning& planning, const MethodPlan& method, const Session& session) {
-  return {*method.method,  method.knobs,   method.fixed,
+  return {*method.method,     method.knobs,   method.fixed,
           planning.tolerance, planning.asked, session.options().seed};
 }
 

@@ -28,15 +28,14 @@ EffectVerdict verdict(const LossInterval& measured, double tolerance) {
 
 }  // namespace
 
-EffectCheck check_effects(const EffectRequest& request, EffectPlan& plan, const EffectSite& site,
-                          int samples, Progress& progress) {
+EffectCheck check_effects(const EffectRequest& request, EffectPlan& plan, const EffectSite& site, int samples,
+                          Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const PlannableEffects plannable = plannable_effects(request);
   EffectPaths paths(request.method, request.knobs, plannable.effects);
   const Levels everything = paths.everything(), levels = planned_levels(plannable.effects, plan);
   const int a_replicate = std::max(1, (samples + replicates - 1) / replicates);
-  Pilot pilot =
-      make_pilot(site, paths, a_replicate, random_bits(request.seed, check_stream, 0, 0), progress);
+  Pilot pilot = make_pilot(site, paths, a_replicate, random_bits(request.seed, check_stream, 0, 0), progress);
   pilot.trace(replicates);
   const LossOfLevels loss(plannable.effects, site, pilot.light(), paths, everything);
   for (size_t e = 0; e < plannable.effects.size(); ++e) {

@@ -31,7 +31,9 @@ class EffectPaths {
   // The group of a class, a new one for the first of its kind.
   size_t group_of(const PathClass& path_class);
   size_t groups() const { return carried_.size(); }
-  bool carried(size_t group, const Levels& levels) const { return carried_.at(group).at(number(levels)) != 0; }
+  bool carried(size_t group, const Levels& levels) const {
+    return carried_.at(group).at(number(levels)) != 0;
+  }
   // For each group: 1 if `from` carries it and `to` doesn't.
   std::vector<uint8_t> lost(const Levels& from, const Levels& to) const;
 

@@ -22,12 +22,13 @@ std::string settings(const EffectDecision& d) {
 std::string check_text(const EffectPlan& plan) {
   const EffectCheck& check = *plan.check;
   std::string text = fmt::format(
-      "measured ({} paths a pixel, {:.1f} s): the plan loses {} %: tolerance {}; predicted {} %: {}\n", check.samples,
-      check.seconds, interval(check.measured), to_string(check.verdict), interval(plan.loss),
+      "measured ({} paths a pixel, {:.1f} s): the plan loses {} %: tolerance {}; predicted {} %: {}\n",
+      check.samples, check.seconds, interval(check.measured), to_string(check.verdict), interval(plan.loss),
       check.as_predicted ? "as predicted" : "NOT as predicted");
   if (const auto& all = check.everything)
     text += fmt::format(
-        "everything on: precompute {:.2f} s (planned {:.2f} s), relight {:.1f} ms ({:.1f} ms), {:.1f} MB ({:.1f} "
+        "everything on: precompute {:.2f} s (planned {:.2f} s), relight {:.1f} ms ({:.1f} ms), {:.1f} MB "
+        "({:.1f} "
         "MB); its picture differs from the planned one by {:.3g} %\n",
         all->precompute_s, all->planned_precompute_s, all->relight_ms, all->planned_relight_ms,
         1e-6 * static_cast<double>(all->bytes), 1e-6 * static_cast<double>(all->planned_bytes),
@@ -44,7 +45,7 @@ std::string effect_plan_text(const EffectPlan& plan) {
   header.push_back("why");
   TextTable table(header);
   for (const EffectDecision& d : plan.effects) {
-    std::vector<std::string> row = {d.effect,    d.level,     d.everything,
+    std::vector<std::string> row = {d.effect,        d.level,     d.everything,
                                     to_string(d.by), settings(d), interval(d.loss)};
     if (measured) row.push_back(d.measured ? interval(*d.measured) : "-");
     row.push_back(d.reason);
@@ -52,10 +53,11 @@ std::string effect_plan_text(const EffectPlan& plan) {
   }
   std::string text = table.to_string();
   for (const LightNote& l : plan.lights) text += fmt::format("light '{}': {}\n", l.light, l.note);
-  text += fmt::format("tolerance {:.3g} %; the whole plan loses {} % of everything ({})\n", 100.0 * plan.tolerance,
-                      interval(plan.loss), plan.everything);
+  text += fmt::format("tolerance {:.3g} %; the whole plan loses {} % of everything ({})\n",
+                      100.0 * plan.tolerance, interval(plan.loss), plan.everything);
   if (plan.beyond && plan.beyond->high > 0.0)
-    text += fmt::format("more bounces than everything has would be {} % of the picture\n", interval(*plan.beyond));
+    text += fmt::format("more bounces than everything has would be {} % of the picture\n",
+                        interval(*plan.beyond));
   text += plan.pilot_samples > 0
               ? fmt::format("planned in {:.2f} s: pilot of {}x{} pixels, {} paths a pixel, {:.1f} M rays\n",
                             plan.seconds, plan.pilot_width, plan.pilot_height, plan.pilot_samples,

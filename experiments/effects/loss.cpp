@@ -15,7 +15,9 @@ namespace {
 // Sums over replicates of one channel of one pixel: lost light l, whole light r, exposed.
 struct Sums {
   double n = 0, l = 0, l2 = 0, r = 0, r2 = 0;
-  void add(double lost, double whole) { n += 1, l += lost, l2 += lost * lost, r += whole, r2 += whole * whole; }
+  void add(double lost, double whole) {
+    n += 1, l += lost, l2 += lost * lost, r += whole, r2 += whole * whole;
+  }
   Sums without(double lost, double whole) const {
     return {n - 1, l - lost, l2 - lost * lost, r - whole, r2 - whole * whole};
   }
@@ -32,9 +34,7 @@ struct Quotient {
     const double squares = s.l2 - 2.0 * excess * s.l + s.n * excess * excess;
     numerator += (sum * sum - squares) / (s.n * (s.n - 1.0));
   }
-  void operator+=(const Quotient& other) {
-    numerator += other.numerator, denominator += other.denominator;
-  }
+  void operator+=(const Quotient& other) { numerator += other.numerator, denominator += other.denominator; }
   double value() const { return denominator > 0.0 ? numerator / denominator : numerator > 0.0 ? 1.0 : 0.0; }
 };
 

@@ -20,8 +20,8 @@ namespace relight {
 // better than the paths that were traced.
 class LossEstimator {
  public:
-  // everything: for each group, 1 if it is part of the whole picture. `light` must outlive this; at least three
-  // replicates.
+  // everything: for each group, 1 if it is part of the whole picture. `light` must outlive this; at least
+  // three replicates.
   LossEstimator(const LightByGroup& light, std::vector<uint8_t> everything, double exposure);
   LossEstimator(LightByGroup&&, std::vector<uint8_t>, double) = delete;
 

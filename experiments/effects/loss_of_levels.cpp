@@ -36,7 +36,8 @@ LossOfLevels::LossOfLevels(const std::vector<Effect>& effects, const EffectSite&
     if (!effects[e].lacks || (effects[e].needless && !effects[e].needless(site).empty())) continue;
     lacks_[e] = effects[e].lacks(site);
     if (lacks_[e].size() != effects[e].levels.size())
-      fail("effect '{}': {} images for {} levels", effects[e].name, lacks_[e].size(), effects[e].levels.size());
+      fail("effect '{}': {} images for {} levels", effects[e].name, lacks_[e].size(),
+           effects[e].levels.size());
   }
 }
 

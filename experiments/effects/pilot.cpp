@@ -48,14 +48,13 @@ void Pilot::add_replicate() {
   for (const PathLayer& layer : result.layers) {
     const size_t group = groups_.group_of(layer.path_class);
     while (images.size() <= group) images.emplace_back(light_.width, light_.height);
-    for (size_t i = 0; i < layer.mean.pixels.size(); ++i)
-      images[group].pixels[i] += layer.mean.pixels[i];
+    for (size_t i = 0; i < layer.mean.pixels.size(); ++i) images[group].pixels[i] += layer.mean.pixels[i];
   }
 }
 
 View smaller_view(const View& view, int pixels) {
-  const double shrink =
-      std::sqrt(static_cast<double>(pixels) / (static_cast<double>(view.width) * static_cast<double>(view.height)));
+  const double shrink = std::sqrt(static_cast<double>(pixels) /
+                                  (static_cast<double>(view.width) * static_cast<double>(view.height)));
   if (shrink >= 1.0) return view;
   const auto side = [&](int full) { return std::max(1, static_cast<int>(std::floor(full * shrink))); };
   return {view.camera, side(view.width), side(view.height)};

@@ -9,8 +9,8 @@
 
 namespace relight {
 
-// Light of each group in each of several independent pictures [replicate][group]; a group that a replicate has
-// nothing of may be missing at the end.
+// Light of each group in each of several independent pictures [replicate][group]; a group that a replicate
+// has nothing of may be missing at the end.
 struct LightByGroup {
   int width = 0, height = 0;
   std::vector<std::vector<Image>> replicates;

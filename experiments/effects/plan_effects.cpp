@@ -42,7 +42,8 @@ std::vector<LightNote> light_notes(const LightingState& lighting) {
     if (light.intensity == glm::vec3(0.0f))
       notes.push_back({light.name, "not shaded and no shadows: its intensity is 0"});
     else if (!light.casts_shadows)
-      notes.push_back({light.name, "no shadow map and no shadow rays: it casts none (casts_shadows = false)"});
+      notes.push_back(
+          {light.name, "no shadow map and no shadow rays: it casts none (casts_shadows = false)"});
   }
   return notes;
 }
@@ -65,7 +66,8 @@ class Planner {
     plan_.everything = paths_.paths(paths_.everything()).to_string();
     apply_user_and_rules();
     if (has_user_shader(site_.lighting))
-      give_up("a light has a shader of its own, which only the GPU can run: what no rule leaves out is computed");
+      give_up(
+          "a light has a shader of its own, which only the GPU can run: what no rule leaves out is computed");
     else if (open_questions())
       measure();
     describe_levels();
@@ -147,13 +149,15 @@ class Planner {
       EffectDecision& d = decisions_[e];
       Levels alone = everything;
       alone[e] = levels_[e];
-      d.loss = d.by == DecidedBy::rule && levels_[e] == base_[e] ? LossInterval{} : loss.between(everything, alone);
+      d.loss = d.by == DecidedBy::rule && levels_[e] == base_[e] ? LossInterval{}
+                                                                 : loss.between(everything, alone);
       if (asked(e)) continue;
       d.next_loss.reset();
       d.undecided = false;
       if (levels_[e] == 0) {
-        if (d.by != DecidedBy::rule) d.reason = d.loss.high > 0.0 ? "what is left out stays below the tolerance"
-                                                    : "no light along such paths was found";
+        if (d.by != DecidedBy::rule)
+          d.reason = d.loss.high > 0.0 ? "what is left out stays below the tolerance"
+                                       : "no light along such paths was found";
         continue;
       }
       d.by = DecidedBy::pilot;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "experiments/usage_error.h"
 #include "experiments/options/parse.h"
+#include "experiments/usage_error.h"
 #include "reference/direct_image.h"
 
 namespace relight {

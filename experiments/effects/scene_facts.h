@@ -11,13 +11,13 @@
 namespace relight {
 
 struct SceneFacts {
-  bool glossy_material = false;   // any material is glossy
-  double glossy_pixels = 0.0;     // share of the view's pixels that show gloss in a sample
-  bool environment = false;       // not black
-  bool emission = false;          // any surface emits
-  bool area_lights = false;       // a rectangle or disc shines
-  bool local_lights = false;      // an omni, spot, directional or other light without area shines
-  bool one_plane = false;         // all surfaces lie in one plane
+  bool glossy_material = false;  // any material is glossy
+  double glossy_pixels = 0.0;    // share of the view's pixels that show gloss in a sample
+  bool environment = false;      // not black
+  bool emission = false;         // any surface emits
+  bool area_lights = false;      // a rectangle or disc shines
+  bool local_lights = false;     // an omni, spot, directional or other light without area shines
+  bool one_plane = false;        // all surfaces lie in one plane
 };
 
 SceneFacts scene_facts(const EffectSite& site);

@@ -22,10 +22,11 @@ std::string render(const RenderOptions& options, const MethodList& methods) {
   if (!run.failure.empty()) fail("{} failed: {}", method.name(), run.failure);
   write_picture(options.out, run.relit, options.image, session.scene().exposure,
                 {{"relight.method", method.name()}, {"relight.image", options.image}});
-  return effects + fmt::format(
-      "{}: precompute {:.2f} s, relight {:.1f} ms, carries {}\nnot simulated: {}\nimage   {}\n",
-      method.name(), run.precompute_s, run.relight_ms.front(), plan.paths.to_string(),
-      fmt::join(not_simulated(plan.paths, session.scene(), session.lighting()), "; "), options.out);
+  return effects +
+         fmt::format(
+             "{}: precompute {:.2f} s, relight {:.1f} ms, carries {}\nnot simulated: {}\nimage   {}\n",
+             method.name(), run.precompute_s, run.relight_ms.front(), plan.paths.to_string(),
+             fmt::join(not_simulated(plan.paths, session.scene(), session.lighting()), "; "), options.out);
 }
 
 }  // namespace relight

@@ -34,11 +34,12 @@ std::string whole_plan(const EffectPlan& plan) {
       percent_text(plan.tolerance), percent_text(plan.loss.value), percent_text(plan.loss.low),
       percent_text(plan.loss.high), escaped(plan.everything));
   if (const auto& check = plan.check)
-    html += fmt::format(" Measured afterwards with {} paths a pixel: {} ({} &hellip; {}): the tolerance is "
-                        "<b>{}</b>, {}.",
-                        count_text(check->samples), percent_text(check->measured.value),
-                        percent_text(check->measured.low), percent_text(check->measured.high),
-                        to_string(check->verdict), check->as_predicted ? "as predicted" : "not as predicted");
+    html += fmt::format(
+        " Measured afterwards with {} paths a pixel: {} ({} &hellip; {}): the tolerance is "
+        "<b>{}</b>, {}.",
+        count_text(check->samples), percent_text(check->measured.value), percent_text(check->measured.low),
+        percent_text(check->measured.high), to_string(check->verdict),
+        check->as_predicted ? "as predicted" : "not as predicted");
   if (plan.beyond)
     html += fmt::format(" More bounces than everything has would be {} of the picture.",
                         percent_text(plan.beyond->value));
@@ -74,7 +75,8 @@ std::string effects_section(const Records& records) {
   }
   if (html.empty()) return "";
   return "<section><h2>What was not simulated and why</h2>" + html +
-         "<p class=note>A loss is |clamp(R) &minus; clamp(R &minus; lost)|<sub>2</sub> / |clamp(R)|<sub>2</sub> "
+         "<p class=note>A loss is |clamp(R) &minus; clamp(R &minus; lost)|<sub>2</sub> / "
+         "|clamp(R)|<sub>2</sub> "
          "with R the picture of everything that the method can do; 95&#8239;% interval beneath. "
          "The errors above are against the reference of the planned light paths: these losses come on "
          "top.</p></section>";

@@ -25,10 +25,9 @@ std::string page(const RecordFile& file, const std::filesystem::path& folder) {
              "Relighting methods against a path-traced reference &middot; {} triangles &middot; "
              "{}</p></header>\n",
              title, style_sheet, title, count_text(first.triangles), escaped(first.provenance.date)) +
-         results_section(records) + "\n" + paths_section(records) + "\n" + effects_section(records) +
-         "\n" + pictures_section(records, folder) +
-         "\n" + times_section(records) + "\n" + settings_section(records) + "\n" +
-         origin_section(records, file.warnings) +
+         results_section(records) + "\n" + paths_section(records) + "\n" + effects_section(records) + "\n" +
+         pictures_section(records, folder) + "\n" + times_section(records) + "\n" +
+         settings_section(records) + "\n" + origin_section(records, file.warnings) +
          fmt::format("\n<div id=large></div><script>{}</script></body></html>\n", script);
 }
 

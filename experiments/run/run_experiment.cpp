@@ -94,8 +94,8 @@ RunRecord run_one(const PlannedRun& run, Sessions& sessions, const std::filesyst
 
 namespace {
 
-// The knobs that the run has once the record's plan is applied; nothing if the record has no plan that was asked
-// for in the same words.
+// The knobs that the run has once the record's plan is applied; nothing if the record has no plan that was
+// asked for in the same words.
 std::optional<KnobValues> knobs_of(const PlannedRun& run, const RunRecord& record) {
   const KnobValues& knobs = run.plan.methods.front().knobs;
   const auto& wanted = run.plan.effects;

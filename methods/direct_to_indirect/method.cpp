@@ -35,10 +35,11 @@ class DirectToIndirect : public Method {
     return direct_to_indirect::error_stages(knobs);
   }
   std::vector<Effect> effects(const KnobValues&) const override {
-    return {bounces_effect("bounces", 8),
-            switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
-                          "glossy", "off", "auto"),
-            soft_shadows_effect("area_light_samples")};
+    return {
+        bounces_effect("bounces", 8),
+        switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
+                      "glossy", "off", "auto"),
+        soft_shadows_effect("area_light_samples")};
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     if (context.knobs.integer("bounces") == 0) return make_direct_only(name(), context);

@@ -20,8 +20,8 @@ SessionOptions session_options(const std::string& scene, const std::string& ligh
 
 struct PlanCase {
   std::string scene, lights, method;
-  std::vector<std::string> settings = {};             // "knob=value" of the method
-  std::map<std::string, std::string> asked = {};      // --effect
+  std::vector<std::string> settings = {};         // "knob=value" of the method
+  std::map<std::string, std::string> asked = {};  // --effect
   double tolerance = 0.01;
   std::string view = "40x30";
   uint64_t seed = 1;
@@ -32,8 +32,8 @@ EffectPlan plan_of(const PlanCase& c);
 // The decision on an effect; std::logic_error if the plan has none.
 const EffectDecision& decision(const EffectPlan& plan, const std::string& effect);
 
-// A closed sphere of that albedo seen from inside, with a lamp in its centre: after k bounces its even radiance is
-// albedo^k times the direct one.
+// A closed sphere of that albedo seen from inside, with a lamp in its centre: after k bounces its even
+// radiance is albedo^k times the direct one.
 tiny::Rendering lit_sphere(float albedo, int width, int height);
 LightingState lamp_in_the_centre();
 

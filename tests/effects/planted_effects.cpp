@@ -11,8 +11,8 @@ namespace {
 Image direct_light(const EffectSite& site) {
   const View& view = site.buffer.view;
   return box_filter_2x2(
-      shade_direct_cpu(site.tracer, site.buffer.direct, view.camera.eye, site.lighting, Lobes::all), view.width,
-      view.height);
+      shade_direct_cpu(site.tracer, site.buffer.direct, view.camera.eye, site.lighting, Lobes::all),
+      view.width, view.height);
 }
 
 Effect terms_effect() {

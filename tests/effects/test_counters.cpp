@@ -56,16 +56,17 @@ void expect_good(const RunRecord& r) {
 }
 
 void expect_no_indirect_work(const RunRecord& r) {
-  for (const char* name : {"visibility_rays", "links", "non_zeros", "photons", "photon_rays", "bounce_non_zeros",
-                           "glossy_pixels", "glossy_rays", "gather_rays", "glossy_gather_rays", "gather_samples",
-                           "view_clusters"})
+  for (const char* name : {"visibility_rays", "links", "non_zeros", "photons", "photon_rays",
+                           "bounce_non_zeros", "glossy_pixels", "glossy_rays", "gather_rays",
+                           "glossy_gather_rays", "gather_samples", "view_clusters"})
     EXPECT_EQ(counter(r, name), 0) << r.method << " " << name;
-  for (const char* name : {"final_gather_matrix", "glossy_matrix", "multi_bounce_matrix", "links", "gather_samples"})
+  for (const char* name :
+       {"final_gather_matrix", "glossy_matrix", "multi_bounce_matrix", "links", "gather_samples"})
     EXPECT_EQ(bytes(r, name), 0) << r.method << " " << name;
 }
 
-// Red if no bounces still precompute something (tried: without the branch to direct light alone the method fails or
-// gathers).
+// Red if no bounces still precompute something (tried: without the branch to direct light alone the method
+// fails or gathers).
 TEST(EffectCounters, WithDirectLightAloneNothingIsGathered) {
   for (const char* scene : {"plane", "cube"})
     for (const RunRecord& r : run({scene, "omni"})) {
@@ -112,7 +113,8 @@ TEST(EffectCounters, BouncesBelowTheToleranceShootNoPhotons) {
   const RunRecord r = run({"dark_room", "omni"}, "cpu", "direct_to_indirect").front();
   expect_good(r);
   EXPECT_LE(std::stoi(r.knobs.at("bounces")), 1);
-  for (const char* name : {"photons", "photon_rays", "bounce_non_zeros"}) EXPECT_EQ(counter(r, name), 0) << name;
+  for (const char* name : {"photons", "photon_rays", "bounce_non_zeros"})
+    EXPECT_EQ(counter(r, name), 0) << name;
   EXPECT_EQ(bytes(r, "multi_bounce_matrix"), 0);
   EXPECT_EQ(r.effect_plan->check->verdict, EffectVerdict::kept);
 }
@@ -129,15 +131,17 @@ TEST(EffectCounters, ALampThatCastsNoShadowsGetsNoShadowMapAndThePlanSaysSo) {
     }
 }
 
-// A planted wrong decision: one bounce where many are needed. Red if the check measures what the plan says in place
-// of what it lost (tried: everything's levels taken from the plan: kept).
+// A planted wrong decision: one bounce where many are needed. Red if the check measures what the plan says in
+// place of what it lost (tried: everything's levels taken from the plan: kept).
 TEST(EffectCounters, ABounceLeftOutByForceIsCaughtByTheCheck) {
   for (const RunRecord& r : run({"bright_box", "omni", {"bounces=1"}, false})) {
     expect_good(r);
     const bool one_is_all = r.method == "clustered_gather";
-    EXPECT_EQ(r.effect_plan->check->verdict, one_is_all ? EffectVerdict::kept : EffectVerdict::broken) << r.method;
+    EXPECT_EQ(r.effect_plan->check->verdict, one_is_all ? EffectVerdict::kept : EffectVerdict::broken)
+        << r.method;
     bool warned = false;
-    for (const std::string& w : r.warnings) warned = warned || w.find("more than the tolerance") != std::string::npos;
+    for (const std::string& w : r.warnings)
+      warned = warned || w.find("more than the tolerance") != std::string::npos;
     EXPECT_EQ(warned, !one_is_all);
   }
 }

@@ -39,7 +39,8 @@ TEST(EffectPaths, ClassesShareAGroupOnlyIfAllChoicesTreatThemAlike) {
   EffectPaths paths(*method, knobs, effects);
   ASSERT_EQ(paths.everything(), (Levels{3, 3}));
   const size_t direct = paths.group_of({.bounces = 0}), one = paths.group_of({.bounces = 1}),
-               three = paths.group_of({.bounces = 3}), beyond = paths.group_of({.bounces = 4, .or_more = true}),
+               three = paths.group_of({.bounces = 3}),
+               beyond = paths.group_of({.bounces = 4, .or_more = true}),
                glossy = paths.group_of({.bounces = 2, .glossy_at_eye = true});
   EXPECT_EQ(std::set<size_t>({direct, one, three, beyond}).size(), 4u);
   EXPECT_EQ(glossy, beyond);  // never carried

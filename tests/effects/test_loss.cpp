@@ -51,8 +51,8 @@ TEST(Loss, LightAboveTheClampIsNotLost) {
   EXPECT_NEAR(estimator.lost(lacking).value, 0.1, 1e-6);
 }
 
-// The mean of noisy squares is larger than the square of the mean; products of different replicates aren't. Red if
-// noise is not taken out (tried: |mean|^2 in place of the products: 0.0175 for 0.0099), or twice.
+// The mean of noisy squares is larger than the square of the mean; products of different replicates aren't.
+// Red if noise is not taken out (tried: |mean|^2 in place of the products: 0.0175 for 0.0099), or twice.
 TEST(Loss, NoiseDoesNotBiasTheSquaredLoss) {
   double sum = 0.0, squares = 0.0;
   constexpr int seeds = 400;
@@ -67,8 +67,8 @@ TEST(Loss, NoiseDoesNotBiasTheSquaredLoss) {
   EXPECT_LT(error / mean, 0.02);
 }
 
-// Red if the interval is too narrow (tried: without the factor n - 1 of the jackknife: 52 % covered), or so wide
-// that it says nothing.
+// Red if the interval is too narrow (tried: without the factor n - 1 of the jackknife: 52 % covered), or so
+// wide that it says nothing.
 TEST(Loss, TheIntervalCoversTheTruthAsOftenAsItSays) {
   int covered = 0, too_high = 0;
   constexpr int seeds = 600;

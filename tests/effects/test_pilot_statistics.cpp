@@ -1,5 +1,6 @@
-// The pilot where its answer is known: a closed sphere with a lamp in its centre, in which every bounce gives an
-// even radiance of albedo^k. Its light comes from real path traces, noise that pixels of a tile share included.
+// The pilot where its answer is known: a closed sphere with a lamp in its centre, in which every bounce gives
+// an even radiance of albedo^k. Its light comes from real path traces, noise that pixels of a tile share
+// included.
 #include <gtest/gtest.h>
 
 #include "common/run/stage_log.h"
@@ -32,8 +33,8 @@ struct Known {
   }
 };
 
-// 300 pilots of 192 pixels. Red if replicates share random numbers (tried: one seed for all: 2 % covered), if the
-// noise is counted as light, or if a bounce is counted with its neighbour.
+// 300 pilots of 192 pixels. Red if replicates share random numbers (tried: one seed for all: 2 % covered), if
+// the noise is counted as light, or if a bounce is counted with its neighbour.
 TEST(PilotStatistics, IntervalsCoverTheKnownShareOfEveryBounce) {
   Known known;
   constexpr int seeds = 150;

@@ -9,7 +9,8 @@ namespace relight::test {
 namespace {
 
 std::string plan_command(const std::string& scene, const std::string& more) {
-  return "plan --scene " + effect_scene(scene) + " --lights omni --view 32x24 --quiet --no-cache --method " + more;
+  return "plan --scene " + effect_scene(scene) + " --lights omni --view 32x24 --quiet --no-cache --method " +
+         more;
 }
 
 TEST(PlanCommand, PrintsAndWritesWhatIsDecided) {
@@ -17,8 +18,8 @@ TEST(PlanCommand, PrintsAndWritesWhatIsDecided) {
   const ProgramResult result =
       run_program(plan_command("plane", "direct_to_indirect --tolerance 0.5% --out " + folder / "plan.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  for (const char* words : {"bounces", "rule", "bounces=0", "all surfaces lie in one plane", "tolerance 0.5 %",
-                            "by rules alone"})
+  for (const char* words :
+       {"bounces", "rule", "bounces=0", "all surfaces lie in one plane", "tolerance 0.5 %", "by rules alone"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
   const EffectPlan plan = effect_plan_from_json(read_text(folder / "plan.json"));
   EXPECT_EQ(plan.tolerance, 0.005);
@@ -38,7 +39,8 @@ TEST(PlanCommand, MistakesNameWhatIsValid) {
   says(plan_command("plane", "direct_to_indirect --effect fog=on"), "valid: bounces, glossy_final_gather");
   says(plan_command("plane", "direct_to_indirect --effect bounces=1 --effect bounces=2"), "before");
   const TemporaryFolder folder;
-  says("compare --scene cornell --lights omni --methods clustered_gather --effect bounces=0 --out " + folder / "o",
+  says("compare --scene cornell --lights omni --methods clustered_gather --effect bounces=0 --out " +
+           folder / "o",
        "--effect needs --tolerance");
   says("render --scene cornell --lights omni --method clustered_gather --tolerance 1% --frames 0:1 --out " +
            folder / "o.png",

@@ -68,11 +68,12 @@ TEST(PlanRecord, ThePageAndTheTextSayWhatWasLeftOutAndWhatItSaved) {
   append_record(folder / "records.jsonl", record);
   write_report(folder.path());
   const std::string page = read_text(folder / "index.html");
-  for (const char* words : {"What was not simulated and why", "Bounces &lt;of light&gt;.", "12.40&#8239;%", "broken",
-                            "fill", "6.25&#8239;%", "500.0&#8239;kB"})
+  for (const char* words : {"What was not simulated and why", "Bounces &lt;of light&gt;.", "12.40&#8239;%",
+                            "broken", "fill", "6.25&#8239;%", "500.0&#8239;kB"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   const std::string text = effect_plan_text(full_plan());
-  for (const char* words : {"bounces=2", "12.4 [12.3, 12.5]", "broken", "as predicted", "5.00 s", "warning: careful"})
+  for (const char* words :
+       {"bounces=2", "12.4 [12.3, 12.5]", "broken", "as predicted", "5.00 s", "warning: careful"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
@@ -92,7 +93,8 @@ device = "cpu"
 directions = 20
 )";
 
-// Red if a planned run is not recognised when the experiment goes on, or is taken for one of another tolerance.
+// Red if a planned run is not recognised when the experiment goes on, or is taken for one of another
+// tolerance.
 TEST(PlanRecord, ExperimentsPlanAndGoOnWhereTheyStopped) {
   const TemporaryFolder folder;
   const MethodList methods = make_all_methods();

@@ -24,8 +24,8 @@ TEST(Planner, WithoutGlossyMaterialsARuleLeavesTheGlossyMatrixOut) {
   }
 }
 
-// Red if the rule looks at the scene's materials in place of the view (tried: glossy_pixels = 1 wherever a material
-// is: decided by the pilot, not the rule), or at the view alone where the wall is seen.
+// Red if the rule looks at the scene's materials in place of the view (tried: glossy_pixels = 1 wherever a
+// material is: decided by the pilot, not the rule), or at the view alone where the wall is seen.
 TEST(Planner, GlossOutOfViewIsLeftOutByARuleAndInViewIsKept) {
   const EffectPlan hidden = plan_of({"hidden_gloss", "spot", transfer});
   EXPECT_EQ(decision(hidden, "glossy_final_gather").level, "off");
@@ -56,8 +56,8 @@ TEST(Planner, OnAConvexObjectThePilotLeavesDirectLight) {
   EXPECT_GT(plan.pilot_samples, 0);
 }
 
-// Albedo 0.95: each bounce is 0.95 of the one before, so all 8 are needed, and even these leave out 0.95^9 = 63 %
-// of the light. The walls' corners are darker than a sphere's, so the share is a little less.
+// Albedo 0.95: each bounce is 0.95 of the one before, so all 8 are needed, and even these leave out 0.95^9 =
+// 63 % of the light. The walls' corners are darker than a sphere's, so the share is a little less.
 TEST(Planner, InABrightClosedRoomAllBouncesAreComputedAndTheRestIsTold) {
   const EffectPlan plan = plan_of({"bright_box", "omni", transfer});
   EXPECT_EQ(decision(plan, "bounces").level, "8");
@@ -66,9 +66,9 @@ TEST(Planner, InABrightClosedRoomAllBouncesAreComputedAndTheRestIsTold) {
   EXPECT_LT(plan.beyond->high, 0.7);
 }
 
-// Bounces of a sphere of albedo 0.5 against the geometric series: the least n for which bounces n + 1 to 8 are below
-// the tolerance. Red if the rest is compared with the picture of the bounces kept (tried: for 40 % it says 1, not 2),
-// or if a bounce is counted with its neighbour.
+// Bounces of a sphere of albedo 0.5 against the geometric series: the least n for which bounces n + 1 to 8
+// are below the tolerance. Red if the rest is compared with the picture of the bounces kept (tried: for 40 %
+// it says 1, not 2), or if a bounce is counted with its neighbour.
 TEST(Planner, TheNumberOfBouncesIsThatOfTheGeometricSeries) {
   const MethodList methods = make_all_methods();
   const Method& method = find_method(methods, transfer);
@@ -104,8 +104,9 @@ TEST(Planner, SoftShadowsAreComputedWhereALightHasAnArea) {
   EXPECT_EQ(decision(plan_of({"plane", "area", transfer, {}, {}, 0.3}), "soft_shadows").level, "1");
 }
 
-// Losses of effects that are left out together are held against the tolerance together. Red if each effect has the
-// tolerance to itself (tried: base replaced by the effect's own last level: terms=3 and bounces both lowered).
+// Losses of effects that are left out together are held against the tolerance together. Red if each effect
+// has the tolerance to itself (tried: base replaced by the effect's own last level: terms=3 and bounces both
+// lowered).
 TEST(Planner, TheWholePlanStaysWithinTheTolerance) {
   const auto method = make_planted_method();
   const KnobValues knobs(method->knobs());
