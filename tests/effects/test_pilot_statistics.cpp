@@ -33,7 +33,7 @@ struct Known {
   }
 };
 
-// 300 pilots of 192 pixels. Red if replicates share random numbers (tried: one seed for all: 2 % covered), if
+// 300 pilots of 192 pixels. Red if replicates share random numbers (mutation to try: one seed for all), if
 // the noise is counted as light, or if a bounce is counted with its neighbour.
 TEST(PilotStatistics, IntervalsCoverTheKnownShareOfEveryBounce) {
   Known known;
