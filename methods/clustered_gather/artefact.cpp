@@ -19,7 +19,7 @@ struct StoredSample {
 
 std::string cache_key(const PrepareContext& context) {
   return fmt::format("version={};layout={};{};{}", precompute_version, sizeof(StoredSample),
-                     view_words(context), context.knobs.precompute_key());
+                     pixel_words(context), context.knobs.precompute_key());
 }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {

@@ -101,13 +101,15 @@ void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const
   std::vector<std::vector<SurfaceSample>> reduced(view.samples.size());
   tbb::enumerable_thread_specific<Worker> workers;
   const bool glossy = settings.part == Part::glossy;
-  progress.start(glossy ? "glossy gather samples" : "gather samples", static_cast<int64_t>(view.samples.size()));
+  progress.start(glossy ? "glossy gather samples" : "gather samples",
+                 static_cast<int64_t>(view.samples.size()));
   tbb::parallel_for(size_t{0}, view.samples.size(), [&](size_t k) {
+    progress.advance();
+    if (!settings.used.empty() && !settings.used[k]) return;
     Worker& worker = workers.local();
     const uint64_t scramble = random_bits(settings.seed, stream, k, glossy ? 1 : 0);
     trace(tracer, view.samples[k], scramble, settings, worker);
     reduced[k] = reduce(worker, metric, settings, scramble);
-    progress.advance();
   });
   progress.finish();
   const size_t before = out.samples.size();

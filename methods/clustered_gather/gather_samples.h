@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/run/progress.h"
@@ -34,6 +35,8 @@ struct GatherSettings {
   uint64_t seed = 1;
   Part part = Part::diffuse;
   glm::vec3 eye{0.0f};  // where glossy light is seen from
+  std::span<const uint8_t>
+      used{};  // by view cluster: 0 = nobody asks for its gather samples; none: all are used
 };
 
 // Logs counters gather_rays, gather_points (rays that hit) and gather_samples; of the glossy part with the

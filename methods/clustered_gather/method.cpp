@@ -3,6 +3,7 @@
 #include "common/shading/direct_only.h"
 #include "common/shading/soft_shadows_effect.h"
 #include "methods/clustered_gather/clustered_gather.h"
+#include "methods/clustered_gather/error_stages.h"
 #include "methods/clustered_gather/knobs.h"
 #include "methods/clustered_gather/precompute.h"
 #include "methods/clustered_gather/prepared_gather.h"
@@ -37,6 +38,9 @@ class ClusteredGather : public Method {
         switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
                       "glossy", "off", "auto"),
         soft_shadows_effect("area_light_samples")};
+  }
+  ErrorStages error_stages(const KnobValues& knobs) const override {
+    return clustered_gather::error_stages(knobs);
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     if (context.knobs.integer("bounces") == 0) return make_direct_only(name(), context);

@@ -92,13 +92,14 @@ std::vector<KnobPreset> knob_presets() {
            "The paper's number of coefficients, shared by the 4x4 rows of a tile (view_basis.h) and refitted to "
            "random lights (light_refit.h); direct light averaged over four points of a gather sample's cell "
            "(light_points.h); rays instead of the clamp between close points (near_field.h) and along glossy "
-           "lobes (glossy_rays.h); 16-bit weights.",
+           "lobes (glossy_rays.h); 16-bit weights by rows, which such a basis suits.",
            {{"light_points", "4"},
             {"view_basis", "haar"},
             {"support_exponent", "0.6"},
             {"refit_lights", "512"},
             {"near_field", "hemisphere"},
             {"glossy_gather", "rays"},
+            {"product", "rows"},
             {"weights", "16"}}}};
 }
 
