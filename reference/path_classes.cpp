@@ -19,6 +19,7 @@ std::string PathClass::name() const {
 
 PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment)
     : told_apart_(true) {
+  if (paths.max_bounces < paths.min_bounces) return;  // direct light alone
   last_ = std::clamp(most_bounces + 1, paths.min_bounces, paths.max_bounces);
   place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
   for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)

@@ -14,6 +14,8 @@ using Records = std::vector<RunRecord>;
 
 std::string results_section(const Records& records);  // errors beside their noise floor, times, bytes
 std::string paths_section(const Records& records);    // what was compared and what was left out
+std::string effects_section(
+    const Records& records);  // what the effect planner left out; empty without a plan
 std::string pictures_section(const Records& records, const std::filesystem::path& folder);
 // Interactive comparison of the same pictures; empty if there is nothing to compare.
 std::string viewer_section(const Records& records, const std::filesystem::path& folder);
