@@ -26,6 +26,8 @@ class ClusteredGather : public Method {
   LightPaths light_paths(const KnobValues& knobs) const override {
     LightPaths paths;
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
+    paths.environment = knobs.choice("environment") != "off";
+    if (paths.environment) paths.environment_bounces = 0;
     return paths;
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {

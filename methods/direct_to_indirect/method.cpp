@@ -27,6 +27,7 @@ class DirectToIndirect : public Method {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
+    paths.environment = knobs.choice("environment") != "off";
     return paths;
   }
   ErrorStages error_stages(const KnobValues& knobs) const override {
