@@ -34,18 +34,20 @@ void expect_all(const std::vector<glm::dvec3>& light, const glm::dvec3& expected
   }
 }
 
-// Irradiance / pi = L, for view samples and gather samples alike. 16,384 directions sum the hemisphere's
-// cosine to 2e-4. One coefficient is enough for an even sky: it is the mean, and every row keeps it.
+// Irradiance / pi = L, for view samples and gather samples alike. The cosine is summed at 16 directions a
+// texel, midpoints in both coordinates: the error falls by four with the number of texels (2.4e-4 of 1024).
+// One coefficient is enough for an even sky: it is the mean, and every row keeps it.
 TEST(EnvironmentAnalytic, AnOpenPlaneUnderAnEvenSky) {
-  const EnvironmentSetup plane(floor_scene());
-  for (const int kept : {1, 100}) {
-    const EnvironmentTransfer transfer = plane.transfer(environment_settings(1024, kept));
-    for (const SparseRows* rows : {&transfer.view, &transfer.gather}) {
-      for (size_t r = 0; r < rows->rows(); ++r) ASSERT_LE(rows->row(r).size(), static_cast<size_t>(kept));
-      expect_all(plane.light(*rows, even_sky()), glm::dvec3(radiance), 2e-4);
+  const EnvironmentSetup plane(floor_scene(), 8, 8);
+  for (const auto& [texels, bound] : {std::pair{1024, 3e-4}, {4096, 7.5e-5}})
+    for (const int kept : {1, 100}) {
+      const EnvironmentTransfer transfer = plane.transfer(environment_settings(texels, kept));
+      for (const SparseRows* rows : {&transfer.view, &transfer.gather}) {
+        for (size_t r = 0; r < rows->rows(); ++r) ASSERT_LE(rows->row(r).size(), static_cast<size_t>(kept));
+        expect_all(plane.light(*rows, even_sky()), glm::dvec3(radiance), bound);
+      }
+      EXPECT_EQ(transfer.glossy.rows(), 0u);
     }
-    EXPECT_EQ(transfer.glossy.rows(), 0u);
-  }
 }
 
 // The same with normals in all directions: no square of the sphere is special. Light from behind a facet is
@@ -53,7 +55,7 @@ TEST(EnvironmentAnalytic, AnOpenPlaneUnderAnEvenSky) {
 TEST(EnvironmentAnalytic, AConvexBodyUnderAnEvenSky) {
   Scene scene = tiny::empty_scene();
   tiny::add_sphere(scene, glm::vec3(0.0f), 1.0f, 36);
-  scene.camera = {{2.0f, 1.5f, 2.5f}, {0, 0, 0}, {0, 1, 0}, 20.0f};
+  scene.camera = {{2.0f, 1.5f, 2.5f}, {0, 0, 0}, {0, 1, 0}, 12.0f};
   finish_scene(scene);
   const EnvironmentSetup sphere(std::move(scene));
   for (const SurfaceSample& s : sphere.buffer.indirect) ASSERT_TRUE(s.valid);
@@ -62,7 +64,8 @@ TEST(EnvironmentAnalytic, AConvexBodyUnderAnEvenSky) {
 }
 
 // L(d) = max(0, d.y): irradiance 2 pi / 3 on a floor. With all coefficients exact but for the resolution of
-// map and square; a hundred lose 1 % at most, as both cosines are smooth.
+// map and square. A hundred tell cells of some 16 x 16 on the square apart: what both cosines vary within one
+// is lost, 2.4 % here, the more so as they vary alike.
 TEST(EnvironmentAnalytic, ASkyLikeACosineGivesTwoThirdsOfItsZenith) {
   Environment sky = tiny::black_map(256, 128);
   for (int y = 0; y < 64; ++y)
@@ -70,7 +73,7 @@ TEST(EnvironmentAnalytic, ASkyLikeACosineGivesTwoThirdsOfItsZenith) {
       sky.texels[static_cast<size_t>(256 * y + x)] =
           glm::vec3(static_cast<float>(std::cos(M_PI * (y + 0.5) / 128)));
   const EnvironmentSetup plane(floor_scene(), 8, 8);
-  for (const auto& [kept, bound] : {std::pair{4096, 1e-3}, {100, 1e-2}})
+  for (const auto& [kept, bound] : {std::pair{4096, 1e-3}, {100, 3e-2}})
     expect_all(plane.light(plane.transfer(environment_settings(4096, kept)).view, sky), glm::dvec3(2.0 / 3.0),
                bound);
 }
@@ -135,7 +138,7 @@ TEST(EnvironmentAnalytic, AGlossyPlateReflectsItsLobesAlbedo) {
   Scene scene = floor_scene();
   scene.materials[0].glossy = glm::vec3(0.4f), scene.materials[0].exponent = 60.0f;
   finish_scene(scene);
-  const EnvironmentSetup plate(std::move(scene));
+  const EnvironmentSetup plate(std::move(scene), 12, 8);
   const EnvironmentTransfer transfer = plate.transfer(environment_settings(1024, 100));
   ASSERT_EQ(transfer.glossy.rows(), plate.buffer.indirect.size());
   const std::vector<glm::dvec3> light = plate.light(transfer.glossy, even_sky());
