@@ -12,6 +12,9 @@ namespace relight {
 // Scene (by its content), view and seed in words: the part of a cache key that is the same for every method.
 std::string view_words(const PrepareContext& context);
 
+// The same with the pixels that are asked for.
+std::string pixel_words(const PrepareContext& context);
+
 // make() -> Artefact; to_bytes(Artefact) -> bytes; from_bytes(bytes) -> Artefact. Logs stages cache_load and
 // cache_store and counter cache_hits. A cache that cannot be written costs a warning, not the run.
 template <typename Make, typename ToBytes, typename FromBytes>

@@ -24,7 +24,7 @@ bool wants_environment(const PrepareContext& context) {
 
 std::string cache_key(const PrepareContext& context) {
   return fmt::format("version={};layout={};{};{}{}", precompute_version, sizeof(StoredSample),
-                     view_words(context), context.knobs.precompute_key(),
+                     pixel_words(context), context.knobs.precompute_key(),
                      wants_environment(context) ? ";with environment" : "");
 }
 

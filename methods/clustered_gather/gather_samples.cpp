@@ -142,6 +142,8 @@ void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const
   progress.start(glossy ? "glossy gather samples" : "gather samples",
                  static_cast<int64_t>(view.samples.size()));
   tbb::parallel_for(size_t{0}, view.samples.size(), [&](size_t k) {
+    progress.advance();
+    if (!settings.used.empty() && !settings.used[k]) return;
     Worker& worker = workers.local();
     const uint64_t scramble = random_bits(settings.seed, stream, k, glossy ? 1 : 0);
     trace(tracer, view.samples[k], scramble, settings, square ? &*square : nullptr, worker);
@@ -150,7 +152,6 @@ void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const
     const size_t of_surfaces =
         settings.clusters == 0 ? 0 : std::max<size_t>(settings.clusters - of_environment, 1);
     reduced[k] = reduce(worker, metric, settings, of_surfaces, scramble);
-    progress.advance();
   });
   progress.finish();
   const size_t before = out.samples.size();

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/linalg/sparse_rows_rgb.h"
@@ -40,6 +41,8 @@ struct GatherSettings {
   glm::vec3 eye{0.0f};  // where glossy light is seen from
   int64_t environment_samples =
       0;  // texels of the environment square; 0: directions that hit nothing are black
+  std::span<const uint8_t>
+      used{};  // by view cluster: 0 = nobody asks for its gather samples; none: all are used
 };
 
 // Logs counters gather_rays, gather_points (rays that hit) and gather_samples; of the glossy part with the

@@ -1,6 +1,7 @@
 // Clustered Monte Carlo gather as a method: name, knobs, light paths; precompute.h and prepared_gather.h do
 // the work.
 #include "methods/clustered_gather/clustered_gather.h"
+#include "methods/clustered_gather/error_stages.h"
 #include "methods/clustered_gather/knobs.h"
 #include "methods/clustered_gather/precompute.h"
 #include "methods/clustered_gather/prepared_gather.h"
@@ -29,6 +30,9 @@ class ClusteredGather : public Method {
     paths.environment = knobs.choice("environment") != "off";
     if (paths.environment) paths.environment_bounces = 0;
     return paths;
+  }
+  ErrorStages error_stages(const KnobValues& knobs) const override {
+    return clustered_gather::error_stages(knobs);
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     Artefact artefact = load_or_precompute(context);

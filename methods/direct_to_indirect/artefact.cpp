@@ -6,11 +6,12 @@
 #include "common/run/cached_artefact.h"
 #include "common/run/error.h"
 #include "common/sampling/random.h"
+#include "methods/direct_to_indirect/light_points.h"
 
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 13;
+constexpr int precompute_version = 14;
 
 uint64_t hash_of(const std::vector<uint8_t>& mask) {
   uint64_t hash = mask.size();
@@ -69,6 +70,7 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
   append_values(out, std::vector<uint32_t>{f.diffuse.columns});
   append_values(out, artefact.cloud.samples);
   append_values(out, artefact.cloud.area);
+  append_values(out, artefact.light_points);
   append_values(out, f.diffuse.row_start);
   append_values(out, f.diffuse.entries);
   append_values(out, f.glossy_pixels);
@@ -94,6 +96,7 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   const std::vector<uint32_t> columns = reader.next<uint32_t>();
   artefact.cloud.samples = reader.next<SurfaceSample>();
   artefact.cloud.area = reader.next<float>();
+  artefact.light_points = reader.next<SurfaceSample>();
   FinalGather& f = artefact.final_gather;
   f.diffuse.row_start = reader.next<uint64_t>();
   f.diffuse.entries = reader.next<SparseEntry>();
@@ -108,7 +111,10 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   m.transfer.row_start = reader.next<uint64_t>();
   m.transfer.entries = reader.next<SparseEntry>();
   if (columns.size() != 1 || columns[0] != artefact.cloud.samples.size() || bounces.size() != 1 ||
-      share_beyond.size() != 1 || f.glossy_pixels.size() != f.glossy.rows())
+      share_beyond.size() != 1 ||
+      (!artefact.light_points.empty() &&
+       artefact.light_points.size() != light_points_a_sample * artefact.cloud.samples.size()) ||
+      f.glossy_pixels.size() != f.glossy.rows())
     fail("cached artefact: inconsistent sizes");
   f.diffuse.columns = f.glossy.columns = m.photons.columns = m.transfer.columns = columns[0];
   m.bounces = bounces[0];

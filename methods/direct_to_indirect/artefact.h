@@ -14,8 +14,9 @@
 namespace relight::direct_to_indirect {
 
 struct Artefact {
-  GatherCloud cloud;         // in tree order; diffuse albedos include the column scaling
-  FinalGather final_gather;  // wavelet space
+  GatherCloud cloud;                        // in tree order; diffuse albedos include the column scaling
+  std::vector<SurfaceSample> light_points;  // four a gather sample (light_points.h), likewise, or none
+  FinalGather final_gather;                 // wavelet space
   MultiBounce multi_bounce;
   EnvironmentTransfer environment;  // empty unless wants_environment(); then it takes no bytes
 };
@@ -29,6 +30,11 @@ std::string cache_key(const PrepareContext& context);
 
 // Of that, what the gather cloud depends on too: scene, view, seed and the version.
 std::string view_key(const PrepareContext& context);
+
+// The samples on which direct light is computed.
+inline const std::vector<SurfaceSample>& lit_points(const Artefact& artefact) {
+  return artefact.light_points.empty() ? artefact.cloud.samples : artefact.light_points;
+}
 
 std::vector<std::byte> to_bytes(const Artefact& artefact);
 // Throws Error if the bytes are not an artefact of this format.

@@ -64,6 +64,7 @@ ErrorStage truncation(const KnobValues& knobs) {
            {"energy_fraction", "1"},
            {"row_budget", "fixed"},
            {"column_scaling", "none"},
+           {"view_basis", "pixels"},
            {"refit_lights", "0"},
            {"refit_candidates", "1"}},
           (kept > 0 && kept < all) || knobs.real("energy_fraction") < 1.0};

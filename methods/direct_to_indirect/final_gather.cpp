@@ -53,7 +53,8 @@ FinalGather compute_final_gather(const FinalGatherInput& in, const FinalGatherSe
     const float threshold = settings.shared_budget
                                 ? shared_budget_threshold(in.buffer, settings, part, columns, make_gather)
                                 : 0.0f;
-    return RowBuilder(in.buffer, settings, part, columns, threshold);
+    return RowBuilder(in.buffer, settings, part, columns, threshold,
+                      part == MatrixPart::diffuse ? in.basis : nullptr);
   };
   RowBuilder diffuse_rows = make_rows(MatrixPart::diffuse);
   std::optional<RowBuilder> glossy_rows;

@@ -26,6 +26,10 @@
 #include "methods/direct_to_indirect/hierarchy.h"
 #include "methods/direct_to_indirect/training_lights.h"
 
+namespace relight::wavelet {
+class PictureHaar;
+}
+
 namespace relight::direct_to_indirect {
 
 class NearField;
@@ -74,10 +78,12 @@ struct FinalGatherInput {
   const NearField* near_field = nullptr;  // takes the place of links to near gather samples; or none
   const GlossyGather* glossy = nullptr;   // none: F_d alone
   std::span<const uint8_t> tiles = {};    // by number in ViewTiles: 0 = its rows stay empty; none: all
+  const wavelet::PictureHaar* basis = nullptr;  // of the diffuse rows (view_basis.h); none: view samples
 };
 
 struct FinalGather {
-  SparseRows diffuse;                   // one row a view sample of `buffer`, empty for invalid ones
+  SparseRows
+      diffuse;  // one row a view sample of `buffer`, empty for invalid ones; with a basis, in its order
   std::vector<uint32_t> glossy_pixels;  // view samples that have a glossy row, ascending
   SparseRows glossy;                    // one row a glossy pixel; nothing at all if there is none
 };

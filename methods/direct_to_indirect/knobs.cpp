@@ -9,6 +9,8 @@ KnobTable knob_table() {
   return {
       {"gather_samples", integer, precompute, "65536", 1024, 1048576, {}, "gather_cloud",
        "Number of gather samples; a power of four (paper: 65,536)."},
+      {"light_points", choice, precompute, "1", 0, 0, {"1", "4"}, "gather_cloud",
+       "Points of each gather sample on which direct light is computed and averaged: the sample itself (paper), or four of its cell (light_points.h)."},
       {"cloud", choice, precompute, "importance", 0, 0, {"uniform", "importance"}, "gather_cloud",
        "Gather samples spread evenly over the surfaces that the view can gather from, or by importance (paper: large scenes)."},
       {"hierarchy_k", real, precompute, "20", 0, 1000, {}, "hierarchy",
@@ -41,6 +43,8 @@ KnobTable knob_table() {
        "A row keeps no more coefficients than hold this share of its sum of squares; 1: as many as `coefficients` allows (paper)."},
       {"row_budget", choice, precompute, "fixed", 0, 0, {"fixed", "shared"}, "truncation",
        "Every row keeps the same number (paper), or rows share the budget: the heaviest coefficients of the view are kept."},
+      {"view_basis", choice, precompute, "pixels", 0, 0, {"pixels", "haar"}, "truncation",
+       "A row belongs to a view sample (paper), or to a Haar wavelet over 4x4 of them, which share their coefficients: as many in all, but what neighbours have in common is stored once (view_basis.h)."},
       {"support_exponent", real, precompute, "1", 0, 1, {}, "truncation",
        "A row keeps the coefficients with the largest |c| x support^this: 1 weights by area (paper), 0 by size alone."},
       {"bounces", integer, precompute, "1", 1, 64, {}, "multi_bounce",
@@ -93,14 +97,17 @@ KnobTable knob_table() {
 
 std::vector<KnobPreset> knob_presets() {
   return {{"best",
-           "The paper's number of coefficients in every row, chosen and refitted for random lights "
-           "(light_refit.h); rays instead of the clamp between close points (near_field.h) and along "
-           "glossy lobes (glossy_rays.h); 16-bit weights.",
-           {{"support_exponent", "0.8"},
-            {"refit_lights", "2048"},
-            {"refit_candidates", "1.5"},
+           "The paper's number of coefficients, shared by the 4x4 rows of a tile (view_basis.h) and refitted to "
+           "random lights (light_refit.h); direct light averaged over four points of a gather sample's cell "
+           "(light_points.h); rays instead of the clamp between close points (near_field.h) and along glossy "
+           "lobes (glossy_rays.h); 16-bit weights by rows, which such a basis suits.",
+           {{"light_points", "4"},
+            {"view_basis", "haar"},
+            {"support_exponent", "0.6"},
+            {"refit_lights", "512"},
             {"near_field", "hemisphere"},
             {"glossy_gather", "rays"},
+            {"product", "rows"},
             {"weights", "16"}}}};
 }
 

@@ -110,6 +110,7 @@ void LightRefit::gather_candidates(const std::array<RefitRow, lanes>& rows) {
 
 // Drops candidates until `target` are left and gives these the values that fit best.
 void LightRefit::reduce(RefitRow& row, size_t lane) {
+  if (row.target == 0) return row.entries.clear();
   set_up(row, lane);
   const size_t step = (row.entries.size() - row.target + elimination_rounds - 1) / elimination_rounds;
   solve();

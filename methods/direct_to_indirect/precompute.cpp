@@ -11,9 +11,11 @@
 #include "methods/direct_to_indirect/gather_structure.h"
 #include "methods/direct_to_indirect/glossy_rays.h"
 #include "methods/direct_to_indirect/indirect_grid.h"
+#include "methods/direct_to_indirect/light_points.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 #include "methods/direct_to_indirect/near_field.h"
 #include "methods/direct_to_indirect/training_lights.h"
+#include "methods/direct_to_indirect/view_basis.h"
 
 namespace relight::direct_to_indirect {
 namespace {
@@ -99,13 +101,26 @@ void check(const KnobValues& knobs) {
           "direct_to_indirect.refit_lights: {} with {}=0: rows that keep every coefficient have nothing to "
           "refit; valid: 0",
           knobs.integer("refit_lights"), kept);
+  if (knobs.choice("view_basis") != "haar") return;
+  if (knobs.choice("row_budget") != "fixed")
+    fail(
+        "direct_to_indirect.row_budget: '{}' with view_basis=haar, whose tiles have a budget each; valid: "
+        "fixed",
+        knobs.choice("row_budget"));
+  if (knobs.real("energy_fraction") < 1.0)
+    fail(
+        "direct_to_indirect.energy_fraction: {} with view_basis=haar, whose tiles share coefficients; valid: "
+        "1",
+        knobs.real("energy_fraction"));
 }
 
 Artefact precompute(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   Artefact artefact;
-  auto [cloud, hierarchy] = make_gather_structure(context);
-  artefact.cloud = std::move(cloud);
+  GatherStructure structure = make_gather_structure(context);
+  artefact.cloud = std::move(structure.cloud);
+  artefact.light_points = std::move(structure.light_points);
+  const GatherHierarchy& hierarchy = structure.hierarchy;
   const FinalGatherSettings settings = final_gather_settings(context);
   std::vector<float> scale;
   if (knobs.choice("column_scaling") == "mean_row") {
@@ -128,6 +143,7 @@ Artefact precompute(const PrepareContext& context) {
   }
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
   const IndirectGrid grid(context.buffer, knobs);
+  const std::optional<wavelet::PictureHaar> basis = view_basis(grid, knobs);
   std::optional<StageTimer> timer(std::in_place, context.log, "final_gather");
   const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(grid.samples()).empty();
   std::optional<GlossyRays> rays;
@@ -143,7 +159,8 @@ Artefact precompute(const PrepareContext& context) {
                                training,
                                near_field.get(),
                                knobs.choice("glossy") == "auto" ? &glossy_gather : nullptr,
-                               grid.tiles()};
+                               grid.tiles(),
+                               basis ? &*basis : nullptr};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
   timer.reset();
   if (wants_environment(context)) {
@@ -153,6 +170,9 @@ Artefact precompute(const PrepareContext& context) {
                                      environment_settings(context), context.progress, context.log);
   }
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
+  if (!scale.empty())
+    for (size_t p = 0; p < artefact.light_points.size(); ++p)
+      artefact.light_points[p].diffuse *= scale[p / light_points_a_sample];
   return artefact;
 }
 

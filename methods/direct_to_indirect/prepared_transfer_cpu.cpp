@@ -11,8 +11,10 @@
 #include "common/wavelet/haar_cpu.h"
 #include "methods/direct_to_indirect/environment_light_cpu.h"
 #include "methods/direct_to_indirect/glossy_lobe.h"
+#include "methods/direct_to_indirect/light_points.h"
 #include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
 #include "methods/direct_to_indirect/transfer_settings.h"
+#include "methods/direct_to_indirect/view_basis.h"
 
 namespace relight::direct_to_indirect {
 namespace {
@@ -21,15 +23,19 @@ class PreparedTransferCpu : public Prepared {
  public:
   PreparedTransferCpu(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
       : scene_environment_(context.scene.environment),
-        samples_("direct_to_indirect", context.tracer, context.buffer, context.knobs, artefact.cloud.samples),
+        samples_("direct_to_indirect", context.tracer, context.buffer, context.knobs, lit_points(artefact)),
         haar_(artefact.cloud.samples.size()),
+        basis_(view_basis(grid, context.knobs)),
+        kd_(basis_ ? diffuse_albedo(grid) : std::vector<glm::vec3>{}),
         product_(make_product_cpu(context.knobs.choice("product"), artefact.final_gather.diffuse,
-                                  diffuse_albedo(grid), picture_shape(grid),
+                                  row_factors(grid, basis_.has_value()), picture_shape(grid),
                                   product_settings(context.knobs, grid))),
         glossy_product_(make_glossy_product(context, grid, artefact.final_gather)),
         reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
+        means_(artefact.light_points.empty() ? 0 : artefact.cloud.samples.size()),
         coefficients_(artefact.cloud.samples.size()),
+        rows_(basis_ ? grid.samples().indirect.size() : 0),
         indirect_(grid.samples().indirect.size()),
         kept_environment_("direct_to_indirect", context.knobs, !artefact.environment.empty()) {
     if (!artefact.environment.empty())
@@ -46,7 +52,8 @@ class PreparedTransferCpu : public Prepared {
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());
     context.log.bytes("partial_results", direct_.bytes() + haar_.bytes() +
-                                             static_cast<int64_t>((coefficients_.size() + indirect_.size()) *
+                                             static_cast<int64_t>((means_.size() + coefficients_.size() +
+                                                                   rows_.size() + indirect_.size()) *
                                                                   sizeof(glm::vec4)));
   }
 
@@ -56,6 +63,10 @@ class PreparedTransferCpu : public Prepared {
                                  [&](const Environment& e) { environment_->update(e, log); });
     const LitSamplesCpuResult& direct = direct_.shade(samples_, lighting, log);
     std::span<const glm::vec4> light = std::span(direct.gather).first(coefficients_.size());
+    if (!means_.empty()) {
+      mean_of_points(direct.gather, means_);
+      light = means_;
+    }
     if (lit_from_afar) light = environment_->added_to(light);
     if (bounces_) {
       const StageTimer timer(log, "multi_bounce");
@@ -67,7 +78,11 @@ class PreparedTransferCpu : public Prepared {
     }
     {
       const StageTimer timer(log, "transfer");
-      product_->multiply(coefficients_, indirect_);
+      product_->multiply(coefficients_, basis_ ? rows_ : indirect_);
+    }
+    if (basis_) {
+      const StageTimer timer(log, "view_basis");
+      basis_->inverse(rows_, kd_, indirect_);
     }
     if (glossy_product_) {
       const StageTimer timer(log, "glossy_transfer");
@@ -100,12 +115,15 @@ class PreparedTransferCpu : public Prepared {
   const Environment& scene_environment_;
   LitSamplesCpu samples_;
   wavelet::HaarCpu haar_;
+  std::optional<wavelet::PictureHaar> basis_;  // none: rows are view samples
+  std::vector<glm::vec3> kd_;                  // with a basis
   std::unique_ptr<TransferProduct> product_;
   std::optional<PartialProductCpu> glossy_product_;  // none without glossy pixels
   FusedReconstruction reconstruction_;
   std::optional<MultiBounceLightCpu> bounces_;  // none with one bounce
   CachedDirectLight<LitSamplesCpuResult> direct_;
-  std::vector<glm::vec4> coefficients_, indirect_;
+  std::vector<glm::vec4> means_;  // of light points
+  std::vector<glm::vec4> coefficients_, rows_, indirect_;
   KeptEnvironment kept_environment_;
   std::optional<EnvironmentLightCpu> environment_;  // none unless prepared for
 };

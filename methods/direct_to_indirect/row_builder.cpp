@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace relight::direct_to_indirect {
 
 void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t) {
-  const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
-  select_largest(coefficients, settings_.support_exponent, columns_, row_factors(samples),
-                 candidate_limit(scratch), scratch.selection);
-  for (size_t i = 0; i < lanes; ++i) {
-    scratch.rows[i] = {};
-    if (samples[i] && has_row(*samples[i])) scratch.rows[i] = select(scratch, i);
+  const bool transformed = basis_ && basis_->transformed(t);
+  if (transformed) {
+    scratch.transformed = coefficients;
+    for (LaneCoefficient& c : scratch.transformed) wavelet::forward_tile(c.value);
+    select_shared(scratch, scratch.transformed);
+  } else {
+    select_rows(scratch, coefficients, t);
   }
-  if (scratch.refit) scratch.refit->refit(coefficients, scratch.rows);
+  if (scratch.refit) scratch.refit->refit(transformed ? scratch.transformed : coefficients, scratch.rows);
   TileRows& rows = tiles_[static_cast<size_t>(t)];
   for (size_t i = 0; i < lanes; ++i) {
     const std::vector<SparseEntry>& row = scratch.rows[i].entries;
@@ -24,6 +26,16 @@ void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& co
   }
 }
 
+// Pixels in the order of the rows.
+std::vector<uint32_t> RowBuilder::pixels_in_order() const {
+  const int width = buffer_.view.width, height = buffer_.view.height;
+  std::vector<uint32_t> order(static_cast<size_t>(width) * static_cast<size_t>(height));
+  uint32_t pixel = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++pixel) order[basis_ ? basis_->place(x, y) : pixel] = pixel;
+  return order;
+}
+
 SparseRows RowBuilder::finish() {
   SparseRows rows;
   rows.columns = columns_;
@@ -31,20 +43,62 @@ SparseRows RowBuilder::finish() {
   size_t total = 0;
   for (const TileRows& t : tiles_) total += t.entries.size();
   rows.entries.reserve(total);
-  const int width = buffer_.view.width;
-  for (int y = 0; y < buffer_.view.height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto pixel = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
-      if (part_ == MatrixPart::glossy && !is_glossy(buffer_.indirect[pixel])) continue;
-      TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
-      const size_t lane = ViewTiles::lane_of(x, y);
-      const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
-      rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
-      rows.row_start.push_back(rows.entries.size());
-      // Rows that keep every coefficient are large: they are let go as soon as they have been copied.
-      if (lane + 1 == lanes) t.entries = {};
-    }
+  const auto width = static_cast<uint32_t>(buffer_.view.width);
+  for (const uint32_t pixel : pixels_in_order()) {
+    if (part_ == MatrixPart::glossy && !is_glossy(buffer_.indirect[pixel])) continue;
+    const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+    TileRows& t = tiles_[view_tiles_.tile_of(x, y)];
+    const size_t lane = ViewTiles::lane_of(x, y);
+    const std::ptrdiff_t first = lane == 0 ? 0 : t.end[lane - 1];
+    rows.entries.insert(rows.entries.end(), t.entries.begin() + first, t.entries.begin() + t.end[lane]);
+    rows.row_start.push_back(rows.entries.size());
+    // Rows that keep every coefficient are large: they are let go as soon as they have been copied.
+    if (--t.left == 0) t.entries = {};
+  }
   return rows;
+}
+
+void RowBuilder::select_rows(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients,
+                             int t) const {
+  const std::array<const SurfaceSample*, lanes> samples = view_tiles_.samples(t);
+  select_largest(coefficients, settings_.support_exponent, columns_, row_factors(samples),
+                 candidate_limit(scratch), scratch.selection);
+  for (size_t i = 0; i < lanes; ++i) {
+    scratch.rows[i] = {};
+    if (samples[i] && has_row(*samples[i])) scratch.rows[i] = select(scratch, i);
+  }
+}
+
+// The heaviest coefficients of all rows of a transformed tile: as many as its rows could keep one by one.
+void RowBuilder::select_shared(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients) const {
+  const size_t budget = lanes * static_cast<size_t>(settings_.budget(part_));
+  const auto limit = static_cast<size_t>(std::ceil(surplus(scratch) * static_cast<float>(budget)));
+  Lanes ones;
+  ones.fill(1.0f);
+  select_largest(coefficients, settings_.support_exponent, columns_, ones, limit, scratch.selection);
+  std::vector<float> weights;
+  for (size_t i = 0; i < lanes; ++i) {
+    scratch.totals.before += scratch.selection.count[i];
+    scratch.totals.energy_before += scratch.selection.energy[i];
+    for (const Candidate& c : scratch.selection.largest[i]) weights.push_back(c.weight);
+  }
+  const auto lightest = [&weights](size_t kept) {
+    if (kept >= weights.size()) return -1.0f;
+    std::nth_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(kept), weights.end(),
+                     std::greater<float>());
+    return weights[kept];
+  };
+  const float kept = lightest(budget), looked_at = lightest(limit);
+  for (size_t i = 0; i < lanes; ++i) {
+    std::vector<Candidate>& candidates = scratch.selection.largest[i];
+    const auto count = [&candidates](float least) {
+      return static_cast<size_t>(
+          std::ranges::count_if(candidates, [least](const Candidate& c) { return c.weight > least; }));
+    };
+    scratch.rows[i] = {{}, count(kept)};
+    keep_largest(candidates, count(looked_at));
+    for (const Candidate& c : candidates) scratch.rows[i].entries.push_back(c.entry);
+  }
 }
 
 Lanes RowBuilder::row_factors(const std::array<const SurfaceSample*, lanes>& samples) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/linalg/sparse_rows.h"
+#include "common/wavelet/picture_haar.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/light_refit.h"
 #include "methods/direct_to_indirect/selection.h"
@@ -29,7 +30,8 @@ struct RowTotals {
 
 // Scratch of one worker thread.
 struct RowScratch {
-  std::optional<LightRefit> refit;  // none: coefficients stay as they are
+  std::vector<LaneCoefficient> transformed;  // with a basis
+  std::optional<LightRefit> refit;           // none: coefficients stay as they are
   std::array<RefitRow, lanes> rows;
   LaneSelection selection;
   RowTotals totals;
@@ -37,20 +39,23 @@ struct RowScratch {
 
 class RowBuilder {
  public:
-  // threshold: of shared_budget_threshold; used with settings.shared_budget only.
+  // threshold: of shared_budget_threshold; used with settings.shared_budget only. basis: of the rows
+  // (view_basis.h), or null.
   RowBuilder(const DeepFrameBuffer& buffer, const FinalGatherSettings& settings, MatrixPart part,
-             uint32_t columns, float threshold)
+             uint32_t columns, float threshold, const wavelet::PictureHaar* basis = nullptr)
       : buffer_(buffer),
         settings_(settings),
         part_(part),
         columns_(columns),
         threshold_(threshold),
+        basis_(basis),
         view_tiles_(buffer),
         tiles_(static_cast<size_t>(view_tiles_.count())) {}
 
   // `coefficients`: all of the rows of tile t. Tiles may be added by several threads, each with its scratch.
   void add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t);
-  // To be called once. One row for each pixel, or of the glossy matrix one for each glossy pixel.
+  // To be called once. One row for each pixel, or of the glossy matrix one for each glossy pixel; with a
+  // basis in its order.
   SparseRows finish();
 
  private:
@@ -58,6 +63,7 @@ class RowBuilder {
   struct TileRows {
     std::vector<SparseEntry> entries;
     std::array<uint32_t, lanes> end{};
+    int left = lanes;  // that finish() has not collected
   };
   bool has_row(const SurfaceSample& sample) const {
     return part_ == MatrixPart::diffuse ? sample.valid : is_glossy(sample);
@@ -66,12 +72,16 @@ class RowBuilder {
   size_t candidate_limit(const RowScratch& scratch) const;
   float surplus(const RowScratch& scratch) const { return scratch.refit ? settings_.refit_candidates : 1.0f; }
   RefitRow select(RowScratch& scratch, size_t lane) const;
+  void select_rows(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t) const;
+  void select_shared(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients) const;
+  std::vector<uint32_t> pixels_in_order() const;
 
   const DeepFrameBuffer& buffer_;
   const FinalGatherSettings& settings_;
   MatrixPart part_;
   uint32_t columns_;
   float threshold_;
+  const wavelet::PictureHaar* basis_;
   ViewTiles view_tiles_;
   std::vector<TileRows> tiles_;
 };

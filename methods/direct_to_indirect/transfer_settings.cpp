@@ -12,6 +12,11 @@ std::vector<glm::vec3> diffuse_albedo(const IndirectGrid& grid) {
   return kd;
 }
 
+std::vector<glm::vec3> row_factors(const IndirectGrid& grid, bool basis) {
+  if (!basis) return diffuse_albedo(grid);
+  return std::vector<glm::vec3>(grid.samples().indirect.size(), glm::vec3(1.0f));
+}
+
 PictureShape picture_shape(const IndirectGrid& grid) {
   return {grid.samples().view.width, grid.samples().view.height};
 }

@@ -15,6 +15,9 @@ namespace relight::direct_to_indirect {
 // k_d of equation 7: one a sample of the grid.
 std::vector<glm::vec3> diffuse_albedo(const IndirectGrid& grid);
 
+// What the product multiplies rows with: k_d, or 1 where a basis (view_basis.h) applies k_d to pixels later.
+std::vector<glm::vec3> row_factors(const IndirectGrid& grid, bool basis);
+
 // The picture that the matrix's rows are.
 PictureShape picture_shape(const IndirectGrid& grid);
 

@@ -62,6 +62,20 @@ TEST(PixelsAlone, AreThoseOfTheWholePictureBitForBitOnTheCpu) {
   }
 }
 
+// With view_basis=haar the rows of eight neighbouring tiles lie in one patch of the product, whose columns are
+// summed in turns: other tiles left empty change the order of a pixel's sums. 30 products: bound 1e-6.
+TEST(PixelsAlone, AreThoseOfTheWholePictureUpToRoundingInAHaarBasis) {
+  TransferBench bench(load_scene("cornell"), width, height);
+  const Both both = relit(bench,
+                          {{"device", "cpu"},
+                           {"view_basis", "haar"},
+                           {"light_points", "4"},
+                           {"refit_lights", "32"},
+                           {"coefficients", "30"}},
+                          glm::ivec2(4));
+  EXPECT_LT(relative_difference(both.alone, both.whole), 1e-6);
+}
+
 // Glossy rows are numbered over the whole view, of whose samples only some have one. Red if a subset's rows
 // are given to other samples.
 TEST(PixelsAlone, HaveTheGlossyLightOfTheWholePicture) {
