@@ -49,8 +49,8 @@ class EnvironmentSquare {
 // of a fine grid over each texel of the *map*, with their exact solid angles: nothing of the map is skipped,
 // so that mean x solid angle, summed over the square, is the map's integral to rounding, and a sun of one
 // texel keeps all of its light. Each texel of the square gets a thousand points or more: those that cross its
-// rim make up 1 % of its light at most (tests/sampling/environment_samples_test.cpp). A constant environment
-// is exact. Parallel, the same bits for any number of threads.
+// rim change it by up to 3 %, and its neighbour the other way (tests/sampling/environment_samples_test.cpp).
+// A constant environment is exact. Parallel, the same bits for any number of threads.
 std::vector<glm::dvec3> mean_radiance(const Environment& environment, const EnvironmentSquare& square);
 
 // Means over all nodes of the quad-tree, from the root to the texels: those of level l begin at

@@ -30,8 +30,8 @@ std::vector<Miss> random_misses(size_t count) {
   return misses;
 }
 
-// Red if a miss is lost or counted twice where a node is cut (tried: the run's last miss left out), or a
-// node's column belongs to another level (tried).
+// Red if a miss is lost or counted twice where a node is cut (not tried yet: the run's last miss left out), or a
+// node's column belongs to another level (not tried yet).
 TEST(EnvironmentShares, KeepWeightAndLimitAndStandForTheirOwnDirections) {
   for (const size_t limit : {1, 2, 7, 60, 0}) {
     std::vector<Miss> misses = random_misses(300);
@@ -127,7 +127,7 @@ TEST(ClusteredEnvironment, AnOpenPlaneUnderAConstantSkyReflectsItsAlbedo) {
     }
 }
 
-// Bounds as in method_test.cpp. Tried, each red: the glossy clusters' rows left out; links applied twice on
+// Bounds as in method_test.cpp. Not tried yet, each should be red: the glossy clusters' rows left out; links applied twice on
 // the GPU.
 TEST(ClusteredEnvironment, CpuAndGpuAgreeWithTheDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {

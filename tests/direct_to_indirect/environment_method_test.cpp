@@ -44,7 +44,7 @@ Relit relit(TransferBench& bench, const TransferBench::Knobs& knobs) {
 }
 
 // 200 float roundings of 2^-24, as for gloss. The oracle has just computed the matrices, the others take them
-// from the cache. Tried, each red: environment left out of the gather samples' light on the CPU; the glossy
+// from the cache. Not tried yet, each should be red: environment left out of the gather samples' light on the CPU; the glossy
 // product left out on the GPU; the matrices' order exchanged in the cached bytes.
 TEST(EnvironmentMethod, EveryDeviceAgreesWithTheDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {
@@ -125,7 +125,7 @@ TEST(EnvironmentMethod, RefusesAnEnvironmentThatComesTooLate) {
 }
 
 // The environment's light is kept while lamps move, computed again when it turns, and after forget(). Red if
-// what is kept is the environment's address (tried: the comparison of texels left out).
+// what is kept is the environment's address (not tried yet: the comparison of texels left out).
 TEST(EnvironmentMethod, KeepsItsLightWhileItStandsStill) {
   for (const char* device : {"cpu", "gpu"}) {
     TransferBench bench(room(tiny::uneven_map(16, 8, 0.0f)), 24, 18);

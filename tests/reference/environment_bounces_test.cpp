@@ -44,7 +44,7 @@ TEST(EnvironmentDirect, OfAConstantSkyIsExactOnAPlate) {
 }
 
 // The estimate of the direct part is that of paths with 0 bounces: two estimators with their own variances.
-// Tried: the map's density left out of the balance heuristic.
+// Not tried yet: the map's density left out of the balance heuristic.
 TEST(EnvironmentDirect, IsTheLightOfZeroBounces) {
   const Rendering render(open_room(), 16, 12);
   PathTracerSettings with_bounces = settings(Estimator::next_event, 2, 2, of_environment(1, 1, 0));
@@ -68,7 +68,7 @@ TEST(EnvironmentDirect, IsTheLightOfZeroBounces) {
   EXPECT_LT(squares / variance, 2.0);
 }
 
-// Red if the limit is taken for that of other lights (tried), or ends paths early.
+// Red if the limit is taken for that of other lights (not tried yet), or ends paths early.
 TEST(EnvironmentBounces, AreCountedApartFromThoseOfLamps) {
   const Rendering render(open_room(), 12, 9);
   const auto indirect = [&](const LightPaths& paths, const LightingState& lights) {
