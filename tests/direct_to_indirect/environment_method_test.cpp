@@ -44,8 +44,8 @@ Relit relit(TransferBench& bench, const TransferBench::Knobs& knobs) {
 }
 
 // 200 float roundings of 2^-24, as for gloss. The oracle has just computed the matrices, the others take them
-// from the cache. Not tried yet, each should be red: environment left out of the gather samples' light on the CPU; the glossy
-// product left out on the GPU; the matrices' order exchanged in the cached bytes.
+// from the cache. Not tried yet, each should be red: environment left out of the gather samples' light on the
+// CPU; the glossy product left out on the GPU; the matrices' order exchanged in the cached bytes.
 TEST(EnvironmentMethod, EveryDeviceAgreesWithTheDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {
     TransferBench bench(room(tiny::uneven_map(32, 16, 0.4f), glossy));
@@ -175,9 +175,9 @@ double mean(const Image& image) {
 
 // Light of the environment alone, one bounce, against the path tracer: means over the picture, in which noise
 // and truncation average out, and the picture itself. Constant: nothing is truncated. Map: rows keep 200 of
-// 1024 coefficients. The reference's noise is 0.3 % of a picture at 64 x 4 points and 256 paths. Tried, each
-// red: the gather samples' light left out; their albedo left out; the environment seen twice by the camera;
-// environment_bounces 0.
+// 1024 coefficients. The reference's noise is 0.3 % of a picture at 64 x 4 points and 1,024 paths. Tried,
+// each red: the gather samples' light left out; their albedo left out; the environment seen twice by the
+// camera; environment_bounces 0.
 TEST(EnvironmentMethod, AgreesWithThePathTracerForOneBounce) {
   struct Case {
     Environment environment;
@@ -199,7 +199,7 @@ TEST(EnvironmentMethod, AgreesWithThePathTracerForOneBounce) {
                                {"near_field", "hemisphere"}},
                               log, tiny::lighting({}));
     const PathTracerResult truth =
-        trace(bench, bench.method->light_paths(KnobValues(bench.method->knobs())), 256);
+        trace(bench, bench.method->light_paths(KnobValues(bench.method->knobs())), 1024);
     EXPECT_NEAR(mean(found.direct), mean(truth.direct), 0.005 * mean(truth.direct));
     EXPECT_NEAR(mean(found.indirect), mean(truth.indirect), 0.01 * mean(truth.indirect));
     // Without edges, where light is upsampled; unclamped by a small exposure. The reference's own noise
