@@ -19,19 +19,25 @@ std::string PathClass::name() const {
 
 PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy, bool area, bool environment)
     : told_apart_(true) {
-  if (paths.max_bounces < paths.min_bounces) return;  // direct light alone
-  last_ = std::clamp(most_bounces + 1, paths.min_bounces, paths.max_bounces);
+  const auto last_of = [&](LightEnd end) {
+    return end == LightEnd::environment ? paths.last_environment_bounce() : paths.max_bounces;
+  };
+  const int longest =
+      environment ? std::max(paths.max_bounces, last_of(LightEnd::environment)) : paths.max_bounces;
+  if (longest < paths.min_bounces) return;  // direct light alone
+  last_ = std::clamp(most_bounces + 1, paths.min_bounces, longest);
   place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
   for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)
     for (const LightEnd end : {LightEnd::local, LightEnd::area, LightEnd::environment}) {
       if (end == LightEnd::area && !area) continue;
       if (end == LightEnd::environment && !environment) continue;
       if (end == LightEnd::local && bounces == 0) continue;  // exact, in the direct image
+      if (bounces > last_of(end)) continue;
       for (int eye = 0; eye <= (glossy && paths.glossy_at_eye ? 1 : 0); ++eye)
         for (int interior = 0; interior <= (glossy && paths.glossy_interior && bounces > 0 ? 1 : 0);
              ++interior) {
           place_[slot(bounces, end, eye, interior)] = static_cast<int>(classes_.size());
-          const bool or_more = bounces == last_ && last_ < paths.max_bounces;
+          const bool or_more = bounces == last_ && last_ < last_of(end);
           classes_.push_back({bounces, or_more, eye == 1, interior == 1, end});
         }
     }

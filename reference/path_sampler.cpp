@@ -105,10 +105,8 @@ bool PathSampler::follow(Walk& walk, int64_t& rays) const {
   }
   ++rays;
   walk.hit = tracer_.intersect(origin, walk.bounce.wi);
-  if (bounces_count(walk.vertex - 1)) {
-    if (area_.has_shapes()) hit_shapes(walk, origin);
-    if (!walk.hit.valid && environment_counts_) hit_environment(walk);
-  }
+  if (bounces_count(walk.vertex - 1) && area_.has_shapes()) hit_shapes(walk, origin);
+  if (!walk.hit.valid && environment_counts(walk.vertex - 1)) hit_environment(walk);
   return walk.hit.valid;
 }
 
@@ -165,8 +163,9 @@ void PathSampler::step(Wave& wave, int vertex, const LightVertex& light) const {
 
 void PathSampler::sample(const EyeTile& tile, const LightVertex& light, const uint64_t* scramble,
                          uint32_t index, glm::vec3* sums, int64_t& rays) const {
-  const bool extended = environment_counts_ || !area_.empty();
-  const int last = paths_.max_bounces + (extended ? 1 : 0);
+  // Light with an extent is found from the vertex before.
+  int last = paths_.max_bounces + (area_.empty() ? 0 : 1);
+  if (environment_counts_) last = std::max(last, paths_.last_environment_bounce() + 1);
   Wave wave{{}, tile.valid, rays};
   for (uint32_t i = 0; i < 16; ++i) {
     if (!((tile.valid >> i) & 1u)) continue;

@@ -73,6 +73,11 @@ class PathSampler {
     return bounces >= paths_.min_bounces && bounces <= paths_.max_bounces;
   }
 
+  bool environment_counts(int bounces) const {
+    return environment_counts_ && bounces >= paths_.min_bounces &&
+           bounces <= paths_.last_environment_bounce();
+  }
+
   const RayTracer& tracer_;
   const LightSampler& lights_;
   const AreaLights& area_;

@@ -58,9 +58,10 @@ void PathSampler::hit_shapes(Walk& walk, const glm::vec3& origin) const {
 }
 
 void PathSampler::next_event_to_extended(Walk& walk, float u_choice, int64_t& rays) const {
-  if (!sample_extended_lights_ || !bounces_count(walk.vertex - 1)) return;
-  if (!area_.empty()) next_event_to_area(walk, u_choice, walk.numbers(area_point), rays);
-  if (environment_counts_ && !environment_.empty())
+  if (!sample_extended_lights_) return;
+  if (!area_.empty() && bounces_count(walk.vertex - 1))
+    next_event_to_area(walk, u_choice, walk.numbers(area_point), rays);
+  if (!environment_.empty() && environment_counts(walk.vertex - 1))
     next_event_to_environment(walk, walk.numbers(environment_direction), rays);
 }
 

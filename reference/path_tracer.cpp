@@ -59,6 +59,8 @@ void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage
   std::vector<PathClass> all = DirectImage::classes();
   if (direct.has_area())
     for (const PathClass& c : DirectImage::area_classes()) all.push_back(c);
+  if (direct.has_environment())
+    for (const PathClass& c : DirectImage::environment_classes()) all.push_back(c);
   const size_t exact = all.size();
   all.insert(all.end(), classes.classes().begin(), classes.classes().end());
   std::vector<uint8_t> chosen(all.size(), 0);
@@ -66,8 +68,11 @@ void apply_pattern(const std::string& pattern, PathClasses& classes, DirectImage
   if (selected.empty())
     fail("light paths: '{}' selects no path that this scene and these bounces have", pattern);
   for (const size_t i : selected) chosen[i] = 1;
-  Image* images[] = {&direct.local_diffuse,    &direct.local_glossy, &direct.seen_area,
-                     &direct.seen_environment, &direct.area_diffuse, &direct.area_glossy};
+  std::vector<Image*> images = {&direct.local_diffuse, &direct.local_glossy, &direct.seen_area,
+                                &direct.seen_environment};
+  if (direct.has_area()) images.insert(images.end(), {&direct.area_diffuse, &direct.area_glossy});
+  if (direct.has_environment())
+    images.insert(images.end(), {&direct.environment_diffuse, &direct.environment_glossy});
   for (size_t i = 0; i < exact; ++i)
     if (!chosen[i]) *images[i] = Image(images[i]->width, images[i]->height);
   classes.select({chosen.begin() + static_cast<std::ptrdiff_t>(exact), chosen.end()});
@@ -172,9 +177,12 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   DirectImage direct;
   {
     StageTimer timer(log, "direct");
-    const bool area_apart = settings.paths.min_bounces >= 1 && area.has_shapes();
+    // With 0 bounces they are sampled with the rest.
+    const bool apart = settings.paths.min_bounces >= 1;
+    const bool environment_apart = apart && settings.paths.environment && !light_from_afar.black();
     direct = trace_direct(tracer, buffer, lights, light_from_afar, settings.paths,
-                          area_apart ? &area : nullptr, settings.area_samples, settings.seed);
+                          {apart && area.has_shapes() ? &area : nullptr,
+                           environment_apart ? &environment : nullptr, settings.area_samples, settings.seed});
     apply_pattern(settings.pattern, classes, direct);
     result.direct = direct.total();
   }
@@ -204,6 +212,8 @@ PathTracerResult path_trace(const RayTracer& tracer, const DeepFrameBuffer& buff
   write_indirect(state, !settings.one_sequence && state.batches >= 2, result);
   for (size_t i = 0; direct.has_area() && i < result.indirect_variance.pixels.size(); ++i)
     result.indirect_variance.pixels[i] += direct.area_variance.pixels[i];
+  for (size_t i = 0; direct.has_environment() && i < result.indirect_variance.pixels.size(); ++i)
+    result.indirect_variance.pixels[i] += direct.environment_variance.pixels[i];
   if (classes.told_apart()) write_layers(state, classes, direct, result);
   report(result, log);
   return result;

@@ -5,8 +5,9 @@
 // bounces) and, where LightPaths counts them, emission and environment seen by the camera. `indirect` holds
 // min_bounces..max_bounces bounces. Lights with an area and the environment have no exact direct part: what
 // they send to the visible surface (0 bounces) is sampled, and is part of `indirect` if min_bounces = 0. If
-// not, `direct` holds that of rectangles and discs, by area_samples points, its variance counted in
-// indirect_variance; that of emitting surfaces and the environment is left out.
+// not, `direct` holds that of rectangles, discs and the environment, by area_samples points, its variance
+// counted in indirect_variance; that of emitting surfaces is left out. Light from the environment has bounces
+// up to LightPaths::last_environment_bounce().
 //
 // A lobe that LightPaths doesn't allow at a vertex neither reflects nor is sampled there; `direct` always has
 // both lobes.
@@ -63,8 +64,8 @@ struct PathTracerSettings {
   // False: lights with an area and the environment are found by BRDF rays only. Unbiased too, so a check of
   // their sampling; in a closed room of even emission it has no noise at all.
   bool sample_extended_lights = true;
-  // With min_bounces >= 1: points on each rectangle or disc that its direct light is estimated by, for each
-  // of the 2x2 sub-samples; even, >= 2.
+  // With min_bounces >= 1: points on each rectangle or disc, and of the environment, that its direct light is
+  // estimated by, for each of the 2x2 sub-samples; even, >= 2.
   int area_samples = 64;
   // > 0: stop before the batch that would exceed it; whole batches, direct light included; at least two
   // batches (with one_sequence: one).

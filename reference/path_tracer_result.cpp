@@ -71,6 +71,13 @@ void write_layers(const PathTracerState& state, const PathClasses& classes, cons
     result.layers.push_back({area_classes[0], direct.area_diffuse, direct.area_variance});
     if (!is_black(direct.area_glossy)) result.layers.push_back({area_classes[1], direct.area_glossy, zero});
   }
+  // Black where a pattern leaves them out.
+  const std::vector<PathClass> environment_classes = DirectImage::environment_classes();
+  if (direct.has_environment() && !is_black(direct.environment_diffuse))
+    result.layers.push_back(
+        {environment_classes[0], direct.environment_diffuse, direct.environment_variance});
+  if (direct.has_environment() && !is_black(direct.environment_glossy))
+    result.layers.push_back({environment_classes[1], direct.environment_glossy, zero});
   for (size_t c = 0; c < classes.classes().size(); ++c)
     result.layers.push_back(sampled_layer(state, classes, c, zero));
 }

@@ -39,6 +39,8 @@ class ByteReader {
     return values;
   }
 
+  bool at_end() const { return at_ == bytes_.size(); }
+
  private:
   void take(void* out, size_t n) {
     if (n > bytes_.size() - at_) fail("cached artefact: truncated after {} bytes", at_);

@@ -9,6 +9,10 @@ std::string LightPaths::to_string() const {
   const char* interior = glossy_interior ? "(D|G)" : "D";
   std::string sources = "local lights";
   if (environment) sources += ", environment";
+  if (environment && last_environment_bounce() != max_bounces)
+    sources += fmt::format(" ({})", last_environment_bounce() == 0
+                                        ? "direct light alone"
+                                        : fmt::format("at most {} bounces", last_environment_bounce()));
   if (emission) sources += ", emission";
   if (max_bounces < min_bounces) return fmt::format("E {} L, direct light alone, {}", eye, sources);
   if (min_bounces == 1 && max_bounces == 1)

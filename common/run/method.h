@@ -41,6 +41,14 @@ struct PrepareContext {
   // Where a method may keep what is the same for many settings (a gather cloud), so that the settings of one
   // invocation share it; null: nowhere.
   ArtefactCache* parts = nullptr;
+  // The first lighting that will be asked for: what it lacks altogether need not be prepared for; null: not
+  // known.
+  const LightingState* lighting = nullptr;
+
+  // Does light from an environment count, as far as is known?
+  bool has_environment() const {
+    return !(lighting ? lighting->environment_or(scene.environment) : scene.environment).black();
+  }
 };
 
 // Result of one relight; all images have the view's size.

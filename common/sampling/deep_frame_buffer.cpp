@@ -38,6 +38,18 @@ DeepFrameBuffer make_deep_frame_buffer(const Scene&, const RayTracer& tracer, co
   return buffer;
 }
 
+glm::vec3 DeepFrameBuffer::eye_direction(int sub_x, int sub_y) const {
+  const auto direction = [&](const glm::ivec2& sub, const glm::ivec2& size) {
+    return view.camera.direction(static_cast<float>(sub.x) + 0.5f, static_cast<float>(sub.y) + 0.5f,
+                                 2 * size.x, 2 * size.y);
+  };
+  if (place.empty()) return direction({sub_x, sub_y}, {view.width, view.height});
+  const glm::ivec2 pixel = place[static_cast<size_t>(sub_y / 2) * static_cast<size_t>(view.width) +
+                                 static_cast<size_t>(sub_x / 2)];
+  if (pixel.x < 0) return glm::vec3(0.0f);
+  return direction(2 * pixel + glm::ivec2(sub_x % 2, sub_y % 2), place_size);
+}
+
 double DeepFrameBuffer::edge_share() const {
   if (edge.empty()) return 0.0;
   int64_t count = 0;

@@ -25,6 +25,13 @@ struct DeepFrameBuffer {
   // width x height; 1 = a pixel whose result is asked for; empty: all are. What a method takes from the view
   // as a whole (importance, thresholds) stays that of the whole view; other pixels it may leave black.
   std::vector<uint8_t> wanted;
+  // Of a compact buffer (pixel_subset.h) by pixel: its place in the picture that the camera sees, whose size
+  // this is; negative beyond its rim. Empty: pixels are where they are.
+  std::vector<glm::ivec2> place;
+  glm::ivec2 place_size{0};
+  // Unit direction in which the eye looks through a sub-pixel of the 2 width x 2 height grid; 0 beyond the
+  // rim.
+  glm::vec3 eye_direction(int sub_x, int sub_y) const;
   double edge_share() const;  // share of pixels with edge = 1, in [0,1]
 };
 

@@ -87,7 +87,10 @@ DeepFrameBuffer compact(const DeepFrameBuffer& buffer, const PixelSubset& subset
   out.indirect.resize(pixels);
   out.direct.resize(4 * pixels);
   out.edge.assign(pixels, 0);
+  out.place.assign(pixels, glm::ivec2(-1));
+  out.place_size = {from_width, buffer.view.height};
   for_each_pixel(subset, [&](int x, int y, int to_x, int to_y) {
+    out.place[index(to_x, to_y, width)] = {x, y};
     out.indirect[index(to_x, to_y, width)] = buffer.indirect[index(x, y, from_width)];
     out.edge[index(to_x, to_y, width)] = buffer.edge[index(x, y, from_width)];
     for (int s = 0; s < 4; ++s)

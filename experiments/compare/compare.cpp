@@ -23,8 +23,10 @@ bool sees_gloss(const DeepFrameBuffer& buffer) {
 
 const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog& log) {
   LightPaths paths = reference_paths(plan_, method);
-  // Where the view shows no gloss both sets of paths give one picture: it is traced and kept once.
+  // Where the view shows no gloss, or there is no environment, both sets of paths give one picture: it is
+  // traced and kept once.
   paths.glossy_at_eye = paths.glossy_at_eye && sees_gloss(session_.buffer());
+  if (!session_.has_environment()) paths = paths.without_environment();
   for (const ReferenceImages& made : made_) {
     if (same_paths(made.settings.paths, paths)) return made;
   }

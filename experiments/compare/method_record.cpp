@@ -40,8 +40,10 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   record.preset = method.preset;
   record.knobs = method.knobs.all();
   record.seed = plan.session.seed;
-  record.light_paths = method.paths.to_string();
-  record.reference_paths = reference_paths(plan, method).to_string();
+  const bool environment = session.has_environment();
+  const LightPaths of_reference = reference_paths(plan, method);
+  record.light_paths = (environment ? method.paths : method.paths.without_environment()).to_string();
+  record.reference_paths = (environment ? of_reference : of_reference.without_environment()).to_string();
   record.not_simulated = not_simulated(method.paths, scene, session.lighting());
   record.width = view.width;
   record.height = view.height;

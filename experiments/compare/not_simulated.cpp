@@ -25,8 +25,12 @@ std::vector<std::string> not_simulated(const LightPaths& paths, const Scene& sce
   if (glossy > 0 && !paths.glossy_interior) {
     sentences.push_back(fmt::format("glossy reflection at the surfaces behind the visible one ({})", share));
   }
-  if (!lighting.environment_or(scene.environment).black() && !paths.environment) {
-    sentences.push_back(lighting.environment ? "light from the sky" : "light from the scene's environment");
+  const std::string sky = lighting.environment ? "light from the sky" : "light from the scene's environment";
+  const bool environment = !lighting.environment_or(scene.environment).black();
+  if (environment && !paths.environment) {
+    sentences.push_back(sky);
+  } else if (environment && paths.last_environment_bounce() < paths.max_bounces) {
+    sentences.push_back(fmt::format("{} after more than {} bounces", sky, paths.last_environment_bounce()));
   }
   const auto emitters = std::count_if(scene.materials.begin(), scene.materials.end(),
                                       [](const Material& m) { return m.emission != glm::vec3(0.0f); });

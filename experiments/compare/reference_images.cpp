@@ -16,9 +16,12 @@ constexpr const char* kind = "reference.images";
 std::string words(const glm::vec3& v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
 
 std::string words(const LightPaths& paths) {
-  return fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}",
-                     paths.min_bounces, paths.max_bounces, paths.glossy_at_eye, paths.glossy_interior,
-                     paths.environment, paths.emission);
+  std::string out = fmt::format("bounces={}..{} glossy_eye={} glossy_interior={} environment={} emission={}",
+                                paths.min_bounces, paths.max_bounces, paths.glossy_at_eye,
+                                paths.glossy_interior, paths.environment, paths.emission);
+  // Absent without an environment, so that older pictures keep their keys.
+  if (paths.environment) out += fmt::format(" environment_bounces={}", paths.last_environment_bounce());
+  return out;
 }
 
 }  // namespace
@@ -39,7 +42,7 @@ std::string picture_key(const Session& session, const PathTracerSettings& settin
     area = area || has_area(light.type);
   }
   // Absent without such lights, so that older pictures keep their keys.
-  if (area && settings.paths.min_bounces >= 1)
+  if ((area || settings.paths.environment) && settings.paths.min_bounces >= 1)
     lights += fmt::format(" area_samples={}", settings.area_samples);
   return fmt::format(
       "version={} float=binary32 scene={:016x} eye={} target={} up={} fov_y={} view={}x{} lights={} {} "

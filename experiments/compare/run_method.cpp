@@ -71,9 +71,10 @@ MethodRun run_method(const MethodPlan& plan, Session& session, const MethodSite&
   MethodRun run;
   const char* phase = "precompute";
   try {
-    const PrepareContext context{session.scene(),        session.tracer(), site.buffer, plan.knobs,
-                                 session.options().seed, *session.gpu(),   site.cache,  session.progress(),
-                                 run.precompute,         site.parts};
+    const PrepareContext context{session.scene(), session.tracer(),       site.buffer,
+                                 plan.knobs,      session.options().seed, *session.gpu(),
+                                 site.cache,      session.progress(),     run.precompute,
+                                 site.parts,      &session.lighting()};
     const auto start = std::chrono::steady_clock::now();
     const auto prepared = plan.method->prepare(context);
     run.precompute_s = seconds_since(start);

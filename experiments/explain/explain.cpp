@@ -93,6 +93,7 @@ PathTracerResult trace_reference(const ExplainPlan& plan, Session& session, cons
                                  RunRecord& run) {
   PathTracerSettings settings;
   settings.paths = plan.method.paths;
+  if (!session.has_environment()) settings.paths = settings.paths.without_environment();
   settings.samples_per_pixel = plan.reference_samples;
   settings.seed = plan.session.seed;
   StageLog log;

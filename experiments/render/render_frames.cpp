@@ -129,7 +129,8 @@ std::string render_frames(const RenderOptions& options, const std::vector<Frame>
     StageLog precompute;
     const PrepareContext context{session.scene(), session.tracer(),     session.buffer(),
                                  plan.knobs,      options.session.seed, *session.gpu(),
-                                 session.cache(), session.progress(),   precompute};
+                                 session.cache(), session.progress(),   precompute,
+                                 nullptr,         &session.lighting()};
     const auto prepared = method.prepare(context);
     Progress& progress = session.progress();
     progress.start("frames", static_cast<int64_t>(missing.size()));

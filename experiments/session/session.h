@@ -25,6 +25,8 @@ class Session {
 
   const Scene& scene() const { return scene_; }
   const LightingState& lighting() const { return lighting_; }  // standing still, at options().time
+  // Does light from an environment reach the scene at options().time?
+  bool has_environment() const { return !lighting_.environment_or(scene_.environment).black(); }
   const LightingState& animated_lighting() const { return animated_lighting_; }
   const std::string& lighting_name() const { return lighting_name_; }  // as `--lights` would name it
   const RayTracer& tracer() const { return *tracer_; }

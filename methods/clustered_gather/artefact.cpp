@@ -9,7 +9,7 @@
 namespace relight::clustered_gather {
 namespace {
 
-constexpr int precompute_version = 2;
+constexpr int precompute_version = 3;
 
 struct StoredSample {
   glm::vec3 position, shading_normal, geometric_normal, diffuse;
@@ -17,9 +17,15 @@ struct StoredSample {
 
 }  // namespace
 
+bool wants_environment(const PrepareContext& context) {
+  const std::string& knob = context.knobs.choice("environment");
+  return knob == "on" || (knob == "auto" && context.has_environment());
+}
+
 std::string cache_key(const PrepareContext& context) {
-  return fmt::format("version={};layout={};{};{}", precompute_version, sizeof(StoredSample),
-                     pixel_words(context), context.knobs.precompute_key());
+  return fmt::format("version={};layout={};{};{}{}", precompute_version, sizeof(StoredSample),
+                     pixel_words(context), context.knobs.precompute_key(),
+                     wants_environment(context) ? ";with environment" : "");
 }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
@@ -36,6 +42,11 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
     append_values(out, links->cluster);
     append_values(out, links->weight);
   }
+  const SparseRowsRgb& e = artefact.gather.environment;
+  if (e.columns == 0) return out;
+  append_values(out, std::vector<uint32_t>{e.columns});
+  append_values(out, e.row_start);
+  append_values(out, e.entries);
   return out;
 }
 
@@ -59,6 +70,15 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
         links->cluster.size() != links->pixel.size() * per_pixel[0])
       fail("cached artefact: inconsistent sizes");
     links->per_pixel = per_pixel[0];
+  }
+  SparseRowsRgb& e = artefact.gather.environment;
+  if (!reader.at_end()) {
+    const std::vector<uint32_t> columns = reader.next<uint32_t>();
+    e.row_start = reader.next<uint64_t>();
+    e.entries = reader.next<SparseEntryRgb>();
+    if (columns.size() != 1 || e.rows() + 1 != artefact.gather.first.size())
+      fail("cached artefact: inconsistent sizes");
+    e.columns = columns[0];
   }
   if (artefact.gather.first.empty() || artefact.gather.first.back() != artefact.gather.samples.size())
     fail("cached artefact: inconsistent sizes");

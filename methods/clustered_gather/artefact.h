@@ -16,6 +16,9 @@ struct Artefact {
   Links diffuse, glossy;  // glossy view clusters are numbered after the diffuse ones; none without gloss
 };
 
+// Is light from the environment prepared for? The knob `environment`, or with auto: is there any?
+bool wants_environment(const PrepareContext& context);
+
 // Everything the artefact depends on, in words. Contains the version of this folder's precompute code: raise
 // it with any change of the numbers.
 std::string cache_key(const PrepareContext& context);

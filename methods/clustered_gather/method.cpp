@@ -30,6 +30,9 @@ class ClusteredGather : public Method {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
+    // Without a bounce there is nothing but the direct light of lamps (direct_only.h).
+    paths.environment = knobs.choice("environment") != "off" && paths.max_bounces > 0;
+    if (paths.environment) paths.environment_bounces = 0;
     return paths;
   }
   std::vector<Effect> effects(const KnobValues&) const override {

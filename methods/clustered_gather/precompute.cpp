@@ -2,6 +2,7 @@
 
 #include "common/run/cached_artefact.h"
 #include "common/run/error.h"
+#include "common/sampling/environment_samples.h"
 #include "common/shading/reconstruction.h"
 
 namespace relight::clustered_gather {
@@ -64,6 +65,7 @@ Links add_part(const PrepareContext& context, Part part, size_t clusters, Gather
   settings.seed = context.seed;
   settings.part = part;
   settings.eye = context.buffer.view.camera.eye;
+  if (wants_environment(context)) settings.environment_samples = knobs.integer("environment_samples");
   settings.used = used;
   add_gather_samples(context.tracer, view, metric, settings, context.progress, context.log, gather);
   return links;
@@ -83,6 +85,8 @@ Artefact precompute(const PrepareContext& context) {
 }  // namespace
 
 Artefact load_or_precompute(const PrepareContext& context) {
+  const EnvironmentSquare square(
+      context.knobs.integer("environment_samples"));  // a power of four, or an Error
   return load_or_make(
       context, "clustered_gather.samples", cache_key(context), [&] { return precompute(context); }, to_bytes,
       from_bytes);

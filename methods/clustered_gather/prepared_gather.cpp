@@ -7,8 +7,10 @@
 #include "common/gpu/texel_view.h"
 #include "common/gpu/timer.h"
 #include "common/shading/cached_direct_light.h"
+#include "common/shading/kept_environment.h"
 #include "common/shading/lit_samples.h"
 #include "common/shading/reconstruction.h"
+#include "methods/clustered_gather/environment_light.h"
 #include "methods/clustered_gather/sums_cpu.h"
 
 namespace relight::clustered_gather {
@@ -68,6 +70,9 @@ class PreparedGather : public Prepared {
  public:
   PreparedGather(const PrepareContext& context, Artefact artefact)
       : oracle_(context.knobs.choice("device") == "oracle"),
+        scene_environment_(context.scene.environment),
+        kept_environment_("clustered_gather", context.knobs, artefact.gather.environment.columns > 0),
+        environment_(make_environment_light(context, artefact.gather, !oracle_)),
         samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
                  artefact.gather.samples),
         direct_(samples_.make()),
@@ -91,17 +96,41 @@ class PreparedGather : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
+    const bool lit_from_afar =
+        kept_environment_.update(lighting.environment_or(scene_environment_),
+                                 [&](const Environment& e) { update_environment(e, log); });
     const LitSamplesGpuResult& direct = direct_.shade(samples_, lighting, log);
     if (oracle_)
       sum_in_double(direct.gather, log);
     else
       sum_on_gpu(direct.gather, log);
     Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
+    if (lit_from_afar) add_image(environment_->picture(), images.direct);
     return with_total(std::move(images.direct), std::move(images.indirect));
   }
-  void forget() override { direct_.forget(); }
+  void forget() override {
+    direct_.forget();
+    kept_environment_.forget();
+  }
 
  private:
+  void update_environment(const Environment& environment, StageLog& log) {
+    const EnvironmentLight::InterpolateCpu in_double = [&](const std::vector<glm::dvec3>& gathered) {
+      return host_.interpolate<double>(gathered);
+    };
+    const EnvironmentLight::InterpolateGpu on_gpu =
+        [&](const gpu::Buffer& gathered, const gpu::Buffer& pixels) { interpolate(gathered, pixels); };
+    if (oracle_)
+      environment_->update(environment, in_double, log);
+    else
+      environment_->update(environment, on_gpu, log);
+  }
+
+  void interpolate(const gpu::Buffer& gathered, const gpu::Buffer& pixels) const {
+    pixels.clear();
+    for (const GpuLinks& l : links_) l.interpolate(gathered, albedo_, pixels);
+  }
+
   void sum_on_gpu(const gpu::Buffer& radiance, StageLog& log) {
     {
       StageTimer timer(log, "indirect_sum");
@@ -115,8 +144,7 @@ class PreparedGather : public Prepared {
       gpu::finish();
     }
     StageTimer timer(log, "links");
-    indirect_.clear();
-    for (const GpuLinks& l : links_) l.interpolate(gathered_, albedo_, indirect_);
+    interpolate(gathered_, indirect_);
     gpu::finish();
   }
 
@@ -128,7 +156,10 @@ class PreparedGather : public Prepared {
   }
 
   bool oracle_;
-  SumsCpu host_;  // of the oracle only
+  const Environment& scene_environment_;
+  KeptEnvironment kept_environment_;
+  std::optional<EnvironmentLight> environment_;  // none unless prepared for
+  SumsCpu host_;                                 // of the oracle only
   LitSamplesGpu samples_;
   CachedDirectLight<LitSamplesGpuResult> direct_;
   gpu::Buffer first_, albedo_, gathered_, indirect_;

@@ -11,7 +11,7 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 13;
+constexpr int precompute_version = 14;
 
 uint64_t hash_of(const std::vector<uint8_t>& mask) {
   uint64_t hash = mask.size();
@@ -20,11 +20,43 @@ uint64_t hash_of(const std::vector<uint8_t>& mask) {
   return hash;
 }
 
+void append_rows(std::vector<std::byte>& out, const SparseRows& rows) {
+  append_values(out, rows.row_start);
+  append_values(out, rows.entries);
+}
+
+SparseRows next_rows(ByteReader& reader, uint32_t columns) {
+  SparseRows rows;
+  rows.columns = columns;
+  rows.row_start = reader.next<uint64_t>();
+  rows.entries = reader.next<SparseEntry>();
+  return rows;
+}
+
+// After everything else, or nothing.
+EnvironmentTransfer next_environment(ByteReader& reader, size_t gather_samples, size_t glossy_pixels) {
+  EnvironmentTransfer e;
+  if (reader.at_end()) return e;
+  const std::vector<uint32_t> columns = reader.next<uint32_t>();
+  if (columns.size() != 1) fail("cached artefact: inconsistent sizes");
+  e.view = next_rows(reader, columns[0]);
+  e.glossy = next_rows(reader, columns[0]);
+  e.gather = next_rows(reader, columns[0]);
+  if (e.gather.rows() != gather_samples || e.glossy.rows() != glossy_pixels)
+    fail("cached artefact: inconsistent sizes");
+  return e;
+}
+
 }  // namespace
 
+bool wants_environment(const PrepareContext& context) {
+  const std::string& knob = context.knobs.choice("environment");
+  return knob == "on" || (knob == "auto" && context.has_environment());
+}
+
 std::string cache_key(const PrepareContext& context) {
-  return fmt::format("{};wanted={:016x};{}", view_key(context), hash_of(context.buffer.wanted),
-                     context.knobs.precompute_key());
+  return fmt::format("{};wanted={:016x};{}{}", view_key(context), hash_of(context.buffer.wanted),
+                     context.knobs.precompute_key(), wants_environment(context) ? ";with environment" : "");
 }
 
 std::string view_key(const PrepareContext& context) {
@@ -51,6 +83,10 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
   append_values(out, m.photons.entries);
   append_values(out, m.transfer.row_start);
   append_values(out, m.transfer.entries);
+  const EnvironmentTransfer& e = artefact.environment;
+  if (e.empty()) return out;
+  append_values(out, std::vector<uint32_t>{e.view.columns});
+  for (const SparseRows* rows : {&e.view, &e.glossy, &e.gather}) append_rows(out, *rows);
   return out;
 }
 
@@ -83,6 +119,7 @@ Artefact from_bytes(const std::vector<std::byte>& bytes) {
   f.diffuse.columns = f.glossy.columns = m.photons.columns = m.transfer.columns = columns[0];
   m.bounces = bounces[0];
   m.share_beyond = share_beyond[0];
+  artefact.environment = next_environment(reader, artefact.cloud.samples.size(), f.glossy_pixels.size());
   return artefact;
 }
 

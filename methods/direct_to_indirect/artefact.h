@@ -7,6 +7,7 @@
 
 #include "common/run/method.h"
 #include "common/sampling/gather_cloud.h"
+#include "methods/direct_to_indirect/environment_transfer.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/multi_bounce.h"
 
@@ -17,7 +18,11 @@ struct Artefact {
   std::vector<SurfaceSample> light_points;  // four a gather sample (light_points.h), likewise, or none
   FinalGather final_gather;                 // wavelet space
   MultiBounce multi_bounce;
+  EnvironmentTransfer environment;  // empty unless wants_environment(); then it takes no bytes
 };
+
+// Is light from the environment prepared for? The knob `environment`, or with auto: is there any?
+bool wants_environment(const PrepareContext& context);
 
 // Everything the artefact depends on, in words. Contains the version of this folder's precompute code: raise
 // it with any change of the numbers.

@@ -60,6 +60,7 @@ ErrorStage truncation(const KnobValues& knobs) {
                       kept == 0 ? all : kept, all, ways),
           {{"coefficients", "0"},
            {"glossy_coefficients", "0"},
+           {"environment_coefficients", "0"},
            {"energy_fraction", "1"},
            {"row_budget", "fixed"},
            {"column_scaling", "none"},

@@ -29,6 +29,8 @@ class DirectToIndirect : public Method {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
+    // Without a bounce there is nothing but the direct light of lamps (direct_only.h).
+    paths.environment = knobs.choice("environment") != "off" && paths.max_bounces > 0;
     return paths;
   }
   ErrorStages error_stages(const KnobValues& knobs) const override {

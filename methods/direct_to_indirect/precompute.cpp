@@ -4,7 +4,9 @@
 
 #include "common/run/cached_artefact.h"
 #include "common/run/error.h"
+#include "common/sampling/environment_samples.h"
 #include "methods/direct_to_indirect/column_scaling.h"
+#include "methods/direct_to_indirect/environment_transfer.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/gather_structure.h"
 #include "methods/direct_to_indirect/glossy_rays.h"
@@ -57,6 +59,23 @@ MultiBounceSettings multi_bounce_settings(const PrepareContext& context) {
   return settings;
 }
 
+EnvironmentSettings environment_settings(const PrepareContext& context) {
+  const KnobValues& knobs = context.knobs;
+  const auto kept = [&](const char* knob) {
+    return static_cast<int>(knobs.integer(knob) > 0 ? knobs.integer(knob)
+                                                    : knobs.integer("environment_samples"));
+  };
+  EnvironmentSettings settings;
+  settings.samples = knobs.integer("environment_samples");
+  settings.coefficients = kept("environment_coefficients");
+  settings.gather_coefficients = kept("environment_gather_coefficients");
+  settings.support_exponent = static_cast<float>(knobs.real("support_exponent"));
+  settings.glossy_rays =
+      knobs.choice("glossy") == "auto" ? static_cast<int>(knobs.integer("glossy_rays")) : 0;
+  settings.seed = context.seed;
+  return settings;
+}
+
 // Null where links alone are asked for.
 std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const GatherCloud& cloud,
                                            const GatherHierarchy& hierarchy) {
@@ -75,6 +94,7 @@ std::unique_ptr<NearField> make_near_field(const PrepareContext& context, const 
 
 // Settings that make no sense together; each alone is in range.
 void check(const KnobValues& knobs) {
+  EnvironmentSquare square(knobs.integer("environment_samples"));  // a power of four, or an Error
   for (const char* kept : {"coefficients", "glossy_coefficients"})
     if (knobs.integer(kept) == 0 && knobs.integer("refit_lights") > 0)
       fail(
@@ -122,9 +142,9 @@ Artefact precompute(const PrepareContext& context) {
     context.log.bytes("training_lights", static_cast<int64_t>(training.response.size() * sizeof(float)));
   }
   const std::unique_ptr<NearField> near_field = make_near_field(context, artefact.cloud, hierarchy);
-  StageTimer timer(context.log, "final_gather");
   const IndirectGrid grid(context.buffer, knobs);
   const std::optional<wavelet::PictureHaar> basis = view_basis(grid, knobs);
+  std::optional<StageTimer> timer(std::in_place, context.log, "final_gather");
   const bool glossy = knobs.choice("glossy") == "auto" && !glossy_pixels(grid.samples()).empty();
   std::optional<GlossyRays> rays;
   if (glossy && knobs.choice("glossy_gather") == "rays")
@@ -142,6 +162,13 @@ Artefact precompute(const PrepareContext& context) {
                                grid.tiles(),
                                basis ? &*basis : nullptr};
   artefact.final_gather = compute_final_gather(input, settings, context.progress, context.log);
+  timer.reset();
+  if (wants_environment(context)) {
+    const StageTimer environment_timer(context.log, "environment_transfer");
+    artefact.environment =
+        compute_environment_transfer({context.tracer, grid.samples(), artefact.cloud, grid.tiles()},
+                                     environment_settings(context), context.progress, context.log);
+  }
   for (size_t j = 0; j < scale.size(); ++j) artefact.cloud.samples[j].diffuse *= scale[j];
   if (!scale.empty())
     for (size_t p = 0; p < artefact.light_points.size(); ++p)

@@ -12,6 +12,7 @@
 #include "common/wavelet/haar.h"
 #include "common/wavelet/haar_gpu.h"
 #include "common/wavelet/picture_haar_gpu.h"
+#include "methods/direct_to_indirect/environment_light.h"
 #include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/light_points.h"
 #include "methods/direct_to_indirect/multi_bounce_light.h"
@@ -29,12 +30,16 @@ class PreparedTransfer : public Prepared {
         kg_(glossy_colours(grid.samples(), matrix_.glossy_pixels)),
         basis_(view_basis(grid, context.knobs)),
         oracle_(context.knobs.choice("device") == "oracle"),
+        scene_environment_(context.scene.environment),
         samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
                  lit_points(artefact)),
         haar_(static_cast<int64_t>(artefact.cloud.samples.size())),
         reconstruction_(context.buffer, grid.upsampling()),
         direct_(samples_.make()),
-        indirect_(static_cast<int64_t>(kd_.size()) * 16) {
+        indirect_(static_cast<int64_t>(kd_.size()) * 16),
+        kept_environment_("direct_to_indirect", context.knobs, !artefact.environment.empty()) {
+    if (!artefact.environment.empty())
+      environment_.emplace(context, grid, std::move(artefact.environment), artefact.cloud);
     if (!artefact.light_points.empty()) mean_.emplace(artefact.cloud.samples.size());
     if (basis_) {
       inverse_basis_.emplace(*basis_, kd_);
@@ -58,16 +63,23 @@ class PreparedTransfer : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
+    const bool lit_from_afar =
+        kept_environment_.update(lighting.environment_or(scene_environment_),
+                                 [&](const Environment& e) { environment_->update(e, log); });
     const LitSamplesGpuResult& direct = direct_.shade(samples_, lighting, log);
     const gpu::Buffer& light = mean_ ? mean_->mean(direct.gather) : direct.gather;
     if (oracle_)
-      transfer_in_double(light, log);
+      transfer_in_double(light, lit_from_afar, log);
     else
-      transfer_on_gpu(light, log);
+      transfer_on_gpu(lit_from_afar ? environment_->added_to(light) : light, log);
     Reconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
+    if (lit_from_afar) add_image(environment_->picture(), images.direct);
     return with_total(std::move(images.direct), std::move(images.indirect));
   }
-  void forget() override { direct_.forget(); }
+  void forget() override {
+    direct_.forget();
+    kept_environment_.forget();
+  }
 
  private:
   // Makes the products and lets the matrices go, of which only the oracle needs the floats.
@@ -125,12 +137,13 @@ class PreparedTransfer : public Prepared {
   }
 
   // The double-precision twin: the oracle of the GPU path.
-  void transfer_in_double(const gpu::Buffer& gather_direct, StageLog& log) {
+  void transfer_in_double(const gpu::Buffer& gather_direct, bool lit_from_afar, StageLog& log) {
     std::vector<glm::dvec3> g;
     {
       StageTimer timer(log, "wavelet_transform");
       for (const glm::vec4& v : gather_direct.download<glm::vec4>()) g.emplace_back(v);
     }
+    if (lit_from_afar) environment_->add_to(g);
     if (bounces_) {
       StageTimer timer(log, "multi_bounce");
       g = bounces_->with_bounces(g);
@@ -161,6 +174,7 @@ class PreparedTransfer : public Prepared {
   std::vector<glm::vec3> kd_, kg_;             // of all pixels, of the glossy ones
   std::optional<wavelet::PictureHaar> basis_;  // none: rows are view samples
   bool oracle_;
+  const Environment& scene_environment_;
   LitSamplesGpu samples_;
   std::optional<MeanOfPointsGpu> mean_;  // with light points
   wavelet::HaarGpu haar_;
@@ -172,6 +186,8 @@ class PreparedTransfer : public Prepared {
   gpu::Buffer indirect_;
   std::unique_ptr<TransferProductGpu> product_;      // none for the oracle
   std::optional<PartialProductGpu> glossy_product_;  // none without glossy pixels
+  KeptEnvironment kept_environment_;
+  std::optional<EnvironmentLight> environment_;  // none unless prepared for
 };
 
 }  // namespace

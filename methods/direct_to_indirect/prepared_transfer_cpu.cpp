@@ -9,6 +9,7 @@
 #include "common/shading/fused_reconstruction.h"
 #include "common/shading/lit_samples_cpu.h"
 #include "common/wavelet/haar_cpu.h"
+#include "methods/direct_to_indirect/environment_light_cpu.h"
 #include "methods/direct_to_indirect/glossy_lobe.h"
 #include "methods/direct_to_indirect/light_points.h"
 #include "methods/direct_to_indirect/multi_bounce_light_cpu.h"
@@ -21,7 +22,8 @@ namespace {
 class PreparedTransferCpu : public Prepared {
  public:
   PreparedTransferCpu(const PrepareContext& context, const IndirectGrid& grid, Artefact artefact)
-      : samples_("direct_to_indirect", context.tracer, context.buffer, context.knobs, lit_points(artefact)),
+      : scene_environment_(context.scene.environment),
+        samples_("direct_to_indirect", context.tracer, context.buffer, context.knobs, lit_points(artefact)),
         haar_(artefact.cloud.samples.size()),
         basis_(view_basis(grid, context.knobs)),
         kd_(basis_ ? diffuse_albedo(grid) : std::vector<glm::vec3>{}),
@@ -34,7 +36,10 @@ class PreparedTransferCpu : public Prepared {
         means_(artefact.light_points.empty() ? 0 : artefact.cloud.samples.size()),
         coefficients_(artefact.cloud.samples.size()),
         rows_(basis_ ? grid.samples().indirect.size() : 0),
-        indirect_(grid.samples().indirect.size()) {
+        indirect_(grid.samples().indirect.size()),
+        kept_environment_("direct_to_indirect", context.knobs, !artefact.environment.empty()) {
+    if (!artefact.environment.empty())
+      environment_.emplace(context, grid, std::move(artefact.environment), artefact.cloud);
     if (artefact.multi_bounce.bounces > 1) {
       report_share_beyond(artefact.multi_bounce, context.log);
       bounces_.emplace(std::move(artefact.multi_bounce), artefact.cloud);
@@ -53,12 +58,16 @@ class PreparedTransferCpu : public Prepared {
   }
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
+    const bool lit_from_afar =
+        kept_environment_.update(lighting.environment_or(scene_environment_),
+                                 [&](const Environment& e) { environment_->update(e, log); });
     const LitSamplesCpuResult& direct = direct_.shade(samples_, lighting, log);
     std::span<const glm::vec4> light = std::span(direct.gather).first(coefficients_.size());
     if (!means_.empty()) {
       mean_of_points(direct.gather, means_);
       light = means_;
     }
+    if (lit_from_afar) light = environment_->added_to(light);
     if (bounces_) {
       const StageTimer timer(log, "multi_bounce");
       light = bounces_->with_bounces(light);
@@ -80,10 +89,17 @@ class PreparedTransferCpu : public Prepared {
       glossy_product_->add(coefficients_, indirect_);
     }
     FusedReconstruction::Images images = reconstruction_.resolve(direct.view, indirect_, log);
+    if (lit_from_afar) {
+      add_image(environment_->picture(), images.direct);
+      add_image(environment_->picture(), images.total);
+    }
     return {std::move(images.direct), std::move(images.indirect), std::move(images.total)};
   }
 
-  void forget() override { direct_.forget(); }
+  void forget() override {
+    direct_.forget();
+    kept_environment_.forget();
+  }
 
  private:
   static std::optional<PartialProductCpu> make_glossy_product(const PrepareContext& context,
@@ -96,6 +112,7 @@ class PreparedTransferCpu : public Prepared {
                              product_settings(context.knobs, grid));
   }
 
+  const Environment& scene_environment_;
   LitSamplesCpu samples_;
   wavelet::HaarCpu haar_;
   std::optional<wavelet::PictureHaar> basis_;  // none: rows are view samples
@@ -107,6 +124,8 @@ class PreparedTransferCpu : public Prepared {
   CachedDirectLight<LitSamplesCpuResult> direct_;
   std::vector<glm::vec4> means_;  // of light points
   std::vector<glm::vec4> coefficients_, rows_, indirect_;
+  KeptEnvironment kept_environment_;
+  std::optional<EnvironmentLightCpu> environment_;  // none unless prepared for
 };
 
 }  // namespace

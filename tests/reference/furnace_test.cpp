@@ -140,6 +140,7 @@ TEST(LightPathFlags, AForbiddenLobeNeitherReflectsNorIsSampled) {
 // Red if (both tried): emission that the camera sees ignores its flag, or the environment is missing.
 TEST(DirectImage, HoldsEmissionAndEnvironmentOnlyWhereTheyCount) {
   Material material;
+  material.diffuse = glm::vec3(0.0f);  // what it would reflect is direct light, too
   material.emission = glm::vec3(4.0f);
   Scene scene = empty_scene();
   scene.materials[0] = material;

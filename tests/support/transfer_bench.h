@@ -37,7 +37,8 @@ class TransferBench {
     values.set("link_threshold", "2");
     for (const auto& [name, value] : knobs) values.set(name, value);
     prepare_log = {};
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log, parts});
+    return method->prepare(
+        {scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log, parts, lighting});
   }
 
   Scene scene;
@@ -51,7 +52,9 @@ class TransferBench {
   ArtefactCache cache{folder, true};
   Progress progress{true};
   StageLog prepare_log;            // of the last prepare
-  ArtefactCache* parts = nullptr;  // see PrepareContext
+  // See PrepareContext.
+  ArtefactCache* parts = nullptr;
+  const LightingState* lighting = nullptr;
 };
 
 inline double norm(const Image& image) {
