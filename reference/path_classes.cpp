@@ -24,6 +24,7 @@ PathClasses::PathClasses(int most_bounces, const LightPaths& paths, bool glossy,
   };
   const int longest =
       environment ? std::max(paths.max_bounces, last_of(LightEnd::environment)) : paths.max_bounces;
+  if (longest < paths.min_bounces) return;  // direct light alone
   last_ = std::clamp(most_bounces + 1, paths.min_bounces, longest);
   place_.assign(slot(last_ + 1, LightEnd::local, 0, 0), -1);
   for (int bounces = paths.min_bounces; bounces <= last_; ++bounces)

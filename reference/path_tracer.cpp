@@ -27,8 +27,10 @@ void check(const PathTracerSettings& settings, const DeepFrameBuffer& buffer) {
   if (!(settings.target_error >= 0.0))
     fail("path tracer: target_error = {}; it must be >= 0 (0: none)", settings.target_error);
   const LightPaths& paths = settings.paths;
-  if (paths.min_bounces < 0 || paths.max_bounces < paths.min_bounces)
-    fail("path tracer: bounces {}..{}; needed are 0 <= min <= max", paths.min_bounces, paths.max_bounces);
+  const bool none = paths.min_bounces == 1 && paths.max_bounces == 0;
+  if (!none && (paths.min_bounces < 0 || paths.max_bounces < paths.min_bounces))
+    fail("path tracer: bounces {}..{}; needed are 0 <= min <= max, or 1..0 for direct light alone",
+         paths.min_bounces, paths.max_bounces);
   if (settings.area_samples < 2 || settings.area_samples % 2 != 0)
     fail("path tracer: area_samples = {}; it must be even and at least 2", settings.area_samples);
   if (!(settings.time_limit_s >= 0.0))

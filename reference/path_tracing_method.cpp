@@ -36,11 +36,11 @@ KnobTable knob_table() {
        integer,
        relight,
        "1",
-       1,
+       0,
        64,
        {},
        "indirect",
-       "Largest number of bounces of indirect light."},
+       "Largest number of bounces of indirect light; 0: direct light alone."},
       {"estimator",
        choice,
        relight,
@@ -152,8 +152,20 @@ class PathTracing : public Method {
   std::string paper() const override { return "James T. Kajiya: The Rendering Equation, SIGGRAPH 1986"; }
   KnobTable knobs() const override { return knob_table(); }
   LightPaths light_paths(const KnobValues& knobs) const override { return paths_of(knobs); }
+  std::vector<Effect> effects(const KnobValues&) const override {
+    return {bounces_effect("bounces_max", 8),
+            boolean("glossy_at_eye", "Indirect light in glossy reflections at the visible surface."),
+            boolean("glossy_interior", "Light that surfaces behind the visible one reflect glossily."),
+            boolean("environment", "Light from the environment."),
+            boolean("emission", "Light emitted by surfaces.")};
+  }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
     return std::make_unique<PathTracingPrepared>(context);
+  }
+
+ private:
+  static Effect boolean(const std::string& name, const std::string& sentence) {
+    return switch_effect(name, sentence, name, "false", "true");
   }
 };
 

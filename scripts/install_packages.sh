@@ -4,24 +4,29 @@ set -euo pipefail
 
 usage() {
   cat <<'EOF'
-Usage: scripts/install_packages.sh [--list]
+Usage: scripts/install_packages.sh [--tests] [--list]
 Installs what is missing of scripts/packages.txt with apt, as root or through sudo. Does nothing if all is there.
+  --tests  of scripts/test_packages.txt instead
   --list   print the missing packages, one a line, and install nothing
 EOF
 }
 
 list_only=false
-case "${1:-}" in
-  --help | -h) usage; exit 0 ;;
-  --list) list_only=true ;;
-  "") ;;
-  *) echo "unknown option '$1'; valid: --list, --help" >&2; exit 2 ;;
-esac
+list=packages.txt
+while (($#)); do
+  case "$1" in
+    --help | -h) usage; exit 0 ;;
+    --tests) list=test_packages.txt ;;
+    --list) list_only=true ;;
+    *) echo "unknown option '$1'; valid: --tests, --list, --help" >&2; exit 2 ;;
+  esac
+  shift
+done
 
 here=$(dirname "$(readlink -f "$0")")
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-  echo "No apt here: make sure that the libraries of scripts/packages.txt are installed; CMake names what it misses." >&2
+  echo "No apt here: make sure that the packages of scripts/$list are installed; CMake names what it misses." >&2
   exit 0
 fi
 
@@ -30,7 +35,7 @@ while read -r package _; do
   [[ -z $package || $package == \#* ]] && continue
   status=$(dpkg-query --show --showformat '${db:Status-Status}' "$package" 2>/dev/null || true)
   [[ $status == installed ]] || missing+=("$package")
-done <"$here/packages.txt"
+done <"$here/$list"
 
 ((${#missing[@]})) || exit 0
 if $list_only; then

@@ -14,6 +14,7 @@ std::string LightPaths::to_string() const {
                                         ? "direct light alone"
                                         : fmt::format("at most {} bounces", last_environment_bounce()));
   if (emission) sources += ", emission";
+  if (max_bounces < min_bounces) return fmt::format("E {} L, direct light alone, {}", eye, sources);
   if (min_bounces == 1 && max_bounces == 1)
     return fmt::format("E {} {} L, 1 bounce, {}", eye, interior, sources);
   return fmt::format("E {} {}+ L, {}..{} bounces, {}", eye, interior, min_bounces, max_bounces, sources);

@@ -6,7 +6,8 @@
 namespace relight {
 
 // Paths E x1 .. x(k+1) L with k bounces of indirect light, min_bounces <= k <= max_bounces (k = 0 is direct
-// light and always carried). Heckbert's notation: "E D D L" is one diffuse bounce.
+// light and always carried; max_bounces = 0 with min_bounces = 1: nothing else is). Heckbert's notation: "E D
+// D L" is one diffuse bounce.
 struct LightPaths {
   int min_bounces = 1;
   int max_bounces = 1;

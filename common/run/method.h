@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/run/effects.h"
 #include "common/run/error_stages.h"
 #include "common/run/knobs.h"
 #include "common/run/light_paths.h"
@@ -89,6 +90,8 @@ class Method {
   virtual LightPaths light_paths(const KnobValues& knobs) const = 0;
   // The approximations that these settings consist of; see error_stages.h.
   virtual ErrorStages error_stages(const KnobValues&) const { return {}; }
+  // What of a scene it can leave out; see effects.h.
+  virtual std::vector<Effect> effects(const KnobValues&) const { return {}; }
   virtual std::unique_ptr<Prepared> prepare(const PrepareContext& context) const = 0;
 };
 

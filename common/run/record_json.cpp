@@ -151,6 +151,7 @@ RunRecord record_from(const Json& json) {
   json.at("height").get_to(record.height);
   json.at("triangles").get_to(record.triangles);
   json.at("scene_hash").get_to(record.scene_hash);
+  if (json.contains("effect_plan")) record.effect_plan = effect_plan_from_json(json["effect_plan"].dump());
   if (json.contains("errors")) record.errors = errors_from_json(json["errors"]);
   if (json.contains("errors_indirect")) record.errors_indirect = errors_from_json(json["errors_indirect"]);
   time_from_json(json.at("time"), record);
@@ -187,6 +188,7 @@ std::string record_to_json(const RunRecord& record) {
                {"height", record.height},
                {"triangles", record.triangles},
                {"scene_hash", record.scene_hash}};
+  if (record.effect_plan) json["effect_plan"] = Json::parse(effect_plan_to_json(*record.effect_plan));
   if (record.errors) json["errors"] = errors_to_json(*record.errors);
   if (record.errors_indirect) json["errors_indirect"] = errors_to_json(*record.errors_indirect);
   json["time"] = time_to_json(record);

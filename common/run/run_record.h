@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/image/metrics.h"
+#include "common/run/effect_plan.h"
 #include "common/run/provenance.h"
 
 namespace relight {
@@ -43,6 +44,7 @@ struct RunRecord {
   std::string reference_paths;             // and of the reference that it was compared with
   std::vector<std::string> not_simulated;  // what the scene has and the method leaves out, in words
   std::string command;                     // command line that repeats this run, every setting written out
+  std::optional<EffectPlan> effect_plan;   // which effects were left out and why; absent: nobody asked
   double exposure = 1;                     // the scene's fixed factor before the clamp of `relative`
   int width = 0, height = 0;
   int64_t triangles = 0;

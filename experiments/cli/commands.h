@@ -16,6 +16,7 @@ using Action = std::function<int()>;
 void add_scene_command(CLI::App& app, Action& action);
 void add_methods_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
+void add_plan_command(CLI::App& app, Action& action);
 void add_reference_command(CLI::App& app, Action& action);
 void add_references_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

@@ -40,6 +40,10 @@ void add_compare_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("NAME,NAME");
   add_knob_flags(*command, options->preset, options->settings);
+  add_effect_flags(*command, options->effects);
+  command->add_flag(
+      "--check-effects", options->effects.check,
+      "With --tolerance: also run every method with all its effects on, to tell what the plan saves");
   command->add_option("--out", options->out, "Folder for images, records and the page")
       ->required()
       ->type_name("DIR");

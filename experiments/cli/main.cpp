@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   relight::cli::add_scene_command(app, action);
   relight::cli::add_methods_command(app, action);
   relight::cli::add_render_command(app, action);
+  relight::cli::add_plan_command(app, action);
   relight::cli::add_reference_command(app, action);
   relight::cli::add_references_command(app, action);
   relight::cli::add_compare_command(app, action);

@@ -19,6 +19,7 @@ void add_render_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("NAME");
   add_knob_flags(*command, options->preset, options->settings);
+  add_effect_flags(*command, options->effects);
   command->add_option("--image", options->image, "Which light")
       ->type_name("direct|indirect|total")
       ->capture_default_str();

@@ -55,4 +55,18 @@ void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::str
       ->allow_extra_args(false);
 }
 
+void add_effect_flags(CLI::App& command, EffectOptions& options) {
+  command
+      .add_option(
+          "--tolerance", options.tolerance,
+          "Leave out effects that the scene does not call for, up to this share of the picture, e.g. 1% "
+          "(see `relight plan`); absent: knobs decide")
+      ->type_name("SHARE");
+  command
+      .add_option("--effect", options.effects,
+                  "Level of an effect, in place of what the planner decides; may be repeated")
+      ->type_name("EFFECT=LEVEL")
+      ->allow_extra_args(false);
+}
+
 }  // namespace relight::cli

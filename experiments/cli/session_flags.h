@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/compare/plan.h"
 #include "experiments/session/options.h"
 
 namespace CLI {
@@ -17,6 +18,8 @@ void add_session_flags(CLI::App& command, SessionOptions& options);
 void add_machine_flags(CLI::App& command, SessionOptions& options);
 // --preset and --set.
 void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::string>& settings);
+// --tolerance and --effect.
+void add_effect_flags(CLI::App& command, EffectOptions& options);
 // --cache and --no-cache alone.
 void add_cache_folder_flag(CLI::App& command, SessionOptions& options);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/run/error.h"
+#include "experiments/compare/effect_run.h"
 #include "experiments/compare/image_files.h"
 #include "experiments/compare/method_record.h"
 #include "experiments/compare/run_method.h"
@@ -37,9 +39,26 @@ const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog&
   return made_.back();
 }
 
-RunRecord Comparison::run(const MethodPlan& method, const std::filesystem::path& folder) {
+RunRecord Comparison::run(const MethodPlan& asked, const std::filesystem::path& folder) {
+  MethodPlan method = asked;
+  std::optional<EffectPlan> effects;
+  std::string failure;
+  try {
+    if (plan_.effects) effects = plan_and_apply(*plan_.effects, method, session_);
+  } catch (const Error& error) {
+    failure = fmt::format("effect plan: {}", error.what());
+  }
   RunRecord record = describe_run(plan_, method, session_);
-  const MethodRun run = run_method(method, session_, plan_.repeats);
+  record.effect_plan = std::move(effects);
+  if (!failure.empty()) {
+    record.failed_stages.push_back(failure);
+    return record;
+  }
+  // Times beside those of everything on are compared without what earlier runs left in the cache.
+  ArtefactCache unused(session_.cache().folder(), false);
+  const bool timed = plan_.effects && plan_.effects->check;
+  const MethodRun run =
+      run_method(method, session_, {session_.buffer(), timed ? unused : session_.cache()}, plan_.repeats);
   add_costs(record, run, session_);
   if (!run.failure.empty()) return record;
   StageLog reference_log;
@@ -47,12 +66,21 @@ RunRecord Comparison::run(const MethodPlan& method, const std::filesystem::path&
   add_errors(record, run.relit, made, session_);
   record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
                          reference_log.warnings().end());
+  if (record.effect_plan) check_effects_of(asked, run, record);
   write_run_images(folder, record.method, run.relit, made.result,
                    {{"relight.scene", record.scene},
                     {"relight.lighting", record.lighting},
                     {"relight.method", record.method},
                     {"relight.command", record.command}});
   return record;
+}
+
+void Comparison::check_effects_of(const MethodPlan& asked, const MethodRun& run, RunRecord& record) {
+  try {
+    check_plan(*plan_.effects, asked, run, plan_.reference_samples, plan_.repeats, session_, record);
+  } catch (const Error& error) {
+    record.failed_stages.push_back(fmt::format("effect check: {}", error.what()));
+  }
 }
 
 std::vector<RunRecord> compare(const ComparePlan& plan) {

@@ -8,6 +8,7 @@
 #include "common/run/run_record.h"
 #include "experiments/compare/plan.h"
 #include "experiments/compare/reference_images.h"
+#include "experiments/compare/run_method.h"
 #include "experiments/session/session.h"
 
 namespace relight {
@@ -22,12 +23,13 @@ class Comparison {
  public:
   // Both must outlive this; of the plan, `methods` is not used and `out` only in the records' commands.
   Comparison(const ComparePlan& plan, Session& session) : plan_(plan), session_(session) {}
-  // Writes the images into `folder`. A method that fails makes a record with failed_stages; Error if the
-  // images cannot be written.
+  // Plans effects first if the plan says so. Writes the images into `folder`. A method that fails makes a
+  // record with failed_stages; Error if the images cannot be written.
   RunRecord run(const MethodPlan& method, const std::filesystem::path& folder);
 
  private:
   const ReferenceImages& reference(const MethodPlan& method, StageLog& log);
+  void check_effects_of(const MethodPlan& asked, const MethodRun& run, RunRecord& record);
 
   const ComparePlan& plan_;
   Session& session_;

@@ -1,5 +1,6 @@
 #include "experiments/compare/plan.h"
 
+#include "experiments/effects/plan_effects.h"
 #include "experiments/session/output_folder.h"
 #include "experiments/usage_error.h"
 
@@ -31,8 +32,10 @@ MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& set
   for (const KnobPreset& p : method.presets())
     if (p.name == preset)
       for (const auto& [knob, value] : p.values) knobs.set(knob, value);
+  std::set<std::string> fixed;
   for (const KnobSetting& setting : settings) {
     if (setting.method != method.name()) continue;
+    fixed.insert(setting.knob);
     try {
       knobs.set(setting.knob, setting.value);
     } catch (const Error& error) {
@@ -40,7 +43,23 @@ MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& set
     }
   }
   const LightPaths paths = method.light_paths(knobs);
-  return {&method, preset, std::move(knobs), paths};
+  return {&method, preset, std::move(knobs), paths, std::move(fixed)};
+}
+
+std::optional<EffectPlanning> plan_effect_options(const EffectOptions& options,
+                                                  const std::vector<const Method*>& methods) {
+  if (options.tolerance.empty()) {
+    if (!options.effects.empty() || options.check)
+      usage_fail("{} needs --tolerance: without one nothing is planned and knobs decide",
+                 options.effects.empty() ? "--check-effects" : "--effect");
+    return std::nullopt;
+  }
+  EffectPlanning planning;
+  planning.tolerance = parse_share("--tolerance", options.tolerance);
+  planning.asked = parse_effects(options.effects);
+  planning.check = options.check;
+  require_effects(planning.asked, methods);
+  return planning;
 }
 
 std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,
@@ -81,6 +100,7 @@ ComparePlan make_plan(const CompareOptions& options, const MethodList& methods) 
   plan.reference_samples = options.reference_samples;
   plan.reference_estimator = parse_estimator(options.reference_estimator);
   plan.repeats = options.repeats;
+  plan.effects = plan_effect_options(options.effects, chosen);
   plan.out = options.out;
   require_writable_folder("--out", plan.out);
   return plan;

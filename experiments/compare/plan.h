@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,19 @@
 #include "experiments/session/options.h"
 
 namespace relight {
+
+// What the effect planner is asked for, as typed; docs/effects.md.
+struct EffectOptions {
+  std::string tolerance;             // "1%" or "0.01"; empty: no planning, knobs decide
+  std::vector<std::string> effects;  // "name=level"
+  bool check = false;                // run also with everything on
+};
+
+struct EffectPlanning {
+  double tolerance = 0.01;
+  std::map<std::string, std::string> asked;  // effect -> level
+  bool check = false;
+};
 
 struct CompareOptions {
   SessionOptions session;
@@ -22,13 +37,15 @@ struct CompareOptions {
   int reference_samples = 256;        // indirect paths a pixel
   std::string reference_estimator = "light_vertex";
   int repeats = 0;  // timed relights; 0: five, fewer if one takes seconds
+  EffectOptions effects;
 };
 
 struct MethodPlan {
   const Method* method;
   std::string preset;  // that the knobs started from
   KnobValues knobs;
-  LightPaths paths;  // what the method carries under these knobs
+  LightPaths paths;             // what the method carries under these knobs
+  std::set<std::string> fixed;  // knobs that the user set one by one
 };
 
 struct ComparePlan {
@@ -39,6 +56,7 @@ struct ComparePlan {
   int reference_samples;
   Estimator reference_estimator;
   int repeats;
+  std::optional<EffectPlanning> effects = std::nullopt;  // nothing: knobs decide
 };
 
 // Defaults, then what the preset says where the method has it, then those settings that name the method.
@@ -48,6 +66,11 @@ MethodPlan plan_method(const Method& method, const std::vector<KnobSetting>& set
 
 // UsageError listing the valid names if no method has that preset.
 void require_preset(const std::string& preset, const std::vector<const Method*>& methods);
+
+// Nothing if no tolerance was given. Throws UsageError for a tolerance outside [0, 1), for effects without a
+// tolerance, and for an effect that none of the methods has.
+std::optional<EffectPlanning> plan_effect_options(const EffectOptions& options,
+                                                  const std::vector<const Method*>& methods);
 
 // "method.knob=value" for each text; UsageError if one names a method outside `methods`.
 std::vector<KnobSetting> parse_settings(const std::vector<std::string>& texts,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiments/compare/compare.h"
+#include "experiments/effects/plan_effects.h"
 #include "experiments/options/text_table.h"
 
 namespace relight {
@@ -31,6 +32,7 @@ std::string notes(const RunRecord& record) {
     text += fmt::format("  the method itself carries {}\n", record.light_paths);
   }
   text += fmt::format("  not simulated: {}\n", fmt::join(record.not_simulated, "; "));
+  if (record.effect_plan) text += "  effects:\n" + effect_plan_text(*record.effect_plan);
   if (const auto& cost = record.reference) {
     text +=
         fmt::format("  reference: {} paths a pixel, {}, {}\n", cost->samples, cost->estimator,

@@ -75,6 +75,30 @@ KnobSetting parse_knob_setting(const std::string& text) {
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
 }
 
+double parse_share(const std::string& option, const std::string& text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  double value = 0.0;
+  const char* const last = text.data() + text.size() - (percent ? 1 : 0);
+  const auto [end, status] = std::from_chars(text.data(), last, value);
+  const double share = percent ? 0.01 * value : value;
+  if (status != std::errc() || end != last || !(share >= 0.0 && share < 1.0))
+    usage_fail("{} '{}': expected a share of the picture from 0 to below 1, e.g. 1% or 0.01", option, text);
+  return share;
+}
+
+std::map<std::string, std::string> parse_effects(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> effects;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      usage_fail("--effect '{}': expected effect=level, e.g. bounces=2", text);
+    const std::string name = text.substr(0, equals);
+    if (!effects.emplace(name, text.substr(equals + 1)).second)
+      usage_fail("--effect '{}': '{}' was given a level before", text, name);
+  }
+  return effects;
+}
+
 std::vector<std::string> parse_name_list(const std::string& option, const std::string& text) {
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= text.size();) {

@@ -2,6 +2,7 @@
 // Every function throws UsageError that shows the text found and the form expected.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct KnobSetting {
 };
 // "method.knob=value".
 KnobSetting parse_knob_setting(const std::string& text);
+
+// "1%" or "0.01": a share in [0, 1).
+double parse_share(const std::string& option, const std::string& text);
+
+// "name=level" for each text, no name twice.
+std::map<std::string, std::string> parse_effects(const std::vector<std::string>& texts);
 
 // "a,b,c" without empty parts or repetitions.
 std::vector<std::string> parse_name_list(const std::string& option, const std::string& text);

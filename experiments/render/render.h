@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/compare/plan.h"
 #include "experiments/method_list.h"
 #include "experiments/session/options.h"
 
@@ -18,6 +19,7 @@ struct RenderOptions {
   std::string image = "total";        // direct, indirect or total
   std::string out;                    // file ending in .exr (radiance) or .png (scene's exposure, sRGB)
   double fps = 24.0;                  // of render_frames: frames a second
+  EffectOptions effects;              // of render(): planned for the lighting as it stands
   bool resume = false;                // of render_frames: frames that are there already are kept
 };
 

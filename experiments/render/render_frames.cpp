@@ -111,6 +111,9 @@ std::string render_frames(const RenderOptions& options, const std::vector<Frame>
                           const MethodList& methods) {
   const Method& method = find_method(methods, options.method);
   require_preset(options.preset, {&method});
+  if (plan_effect_options(options.effects, {&method}))
+    usage_fail(
+        "--tolerance: effects are planned for one lighting, not for frames of a moving one; valid with --at");
   const MethodPlan plan = plan_method(method, parse_settings(options.settings, {&method}), options.preset);
   check_picture_options(options);
   Session session(options.session, Session::Gpu::needed);

@@ -3,7 +3,11 @@
 #include <fstream>
 #include <iterator>
 
+#include <glm/gtc/packing.hpp>
+#include <glm/gtc/type_precision.hpp>
+
 #include "common/image/exr.h"
+#include "common/image/write_encoded.h"
 
 namespace relight::report {
 
@@ -24,15 +28,40 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-std::string png_data_uri(const Image& image, float exposure, const std::filesystem::path& scratch) {
-  const std::filesystem::path file = scratch / ".relight-page-image.png";
-  write_png(file, image, exposure);
+namespace {
+
+// Of the file, which is removed.
+std::string uri_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(in),
                                          std::istreambuf_iterator<char>()};
   in.close();
   std::filesystem::remove(file);
   return "data:image/png;base64," + base64(bytes);
+}
+
+}  // namespace
+
+std::string png_data_uri(const Image& image, float exposure, const std::filesystem::path& scratch) {
+  const std::filesystem::path file = scratch / ".relight-page-image.png";
+  write_png(file, image, exposure);
+  return uri_of(file);
+}
+
+std::string half_planes_uri(const Image& image, const std::filesystem::path& scratch) {
+  const size_t n = image.pixels.size();
+  std::vector<glm::u8vec3> bytes(2 * n);
+  for (size_t i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const uint16_t half = glm::packHalf1x16(image.pixels[i][c]);
+      bytes[i][c] = static_cast<uint8_t>(half >> 8);
+      bytes[n + i][c] = static_cast<uint8_t>(half & 255u);
+    }
+  OIIO::ImageSpec spec(image.width, 2 * image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");  // what a canvas has: the browser changes nothing
+  const std::filesystem::path file = scratch / ".relight-page-image.png";
+  write_encoded(file, spec, bytes.data());
+  return uri_of(file);
 }
 
 }  // namespace relight::report

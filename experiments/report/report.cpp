@@ -25,10 +25,20 @@ std::string page(const RecordFile& file, const std::filesystem::path& folder) {
              "Relighting methods against a path-traced reference &middot; {} triangles &middot; "
              "{}</p></header>\n",
              title, style_sheet, title, count_text(first.triangles), escaped(first.provenance.date)) +
-         results_section(records) + "\n" + paths_section(records) + "\n" + pictures_section(records, folder) +
-         "\n" + times_section(records) + "\n" + settings_section(records) + "\n" +
+         results_section(records) + "
+" + paths_section(records) + "
+" + effects_section(records) + "
+" +
+         pictures_section(records, folder) + "
+" + viewer_section(records, folder) + "
+" +
+         times_section(records) + "
+" + settings_section(records) + "
+" +
          origin_section(records, file.warnings) +
-         fmt::format("\n<div id=large></div><script>{}</script></body></html>\n", script);
+         fmt::format("
+<div id=large></div><script>{}{}</script></body></html>
+", script, viewer_script);
 }
 
 }  // namespace

@@ -33,6 +33,11 @@ svg text { font-size:12px; fill:var(--ink); } .bar svg text { font-size:13px; }
 rect.setup { fill:#8c959f; } rect.precompute { fill:#0a5f8a; } rect.relight { fill:#d1802b; }
 pre { background:var(--shade); border:1px solid var(--line); border-radius:6px; padding:10px 12px; font-size:12.5px;
   white-space:pre-wrap; overflow-wrap:anywhere; }
+#viewer .tools { display:flex; flex-wrap:wrap; gap:8px 14px; align-items:center; margin-bottom:8px; font-size:13.5px; }
+#viewer input[type=range] { vertical-align:middle; width:220px; } #viewer output { font-variant-numeric:tabular-nums; }
+#viewer-panes { display:flex; gap:8px; } #viewer-panes canvas { flex:1 1 0; min-width:0; touch-action:none; cursor:crosshair;
+  background:var(--shade); border-radius:3px; } #viewer-panes canvas[hidden] { display:none; }
+#viewer-values { font-variant-numeric:tabular-nums; max-width:none; }
 #large { position:fixed; inset:0; display:none; align-items:center; justify-content:center; background:#000c; cursor:zoom-out; }
 #large.shown { display:flex; } #large img { max-width:96vw; max-height:96vh; min-width:60vw; object-fit:contain; }
 )css";

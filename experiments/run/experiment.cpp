@@ -31,6 +31,12 @@ RunGroup read_group(const TomlTable& table, const std::filesystem::path& folder)
   group.optional = table.boolean("optional", false);
   const TomlTable knobs = table.table("knobs");
   for (const std::string& knob : knobs.keys()) group.knobs[knob] = knobs.values(knob);
+  group.tolerances = values_or(table, "tolerance", "");
+  const TomlTable effects = table.table("effects");
+  for (const std::string& effect : effects.keys())
+    for (const std::string& level : effects.values(effect))
+      group.effects.effects.push_back(effect + "=" + level);
+  group.effects.check = table.boolean("check_effects", false);
   table.refuse_unknown_keys();
   return group;
 }

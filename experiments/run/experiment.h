@@ -19,6 +19,8 @@ struct RunGroup {
   std::vector<std::string> seeds;
   std::string method;
   std::map<std::string, std::vector<std::string>> knobs;  // knob -> values
+  std::vector<std::string> tolerances;                    // of the effect planner; "": nothing is planned
+  EffectOptions effects;                                  // levels and check; its tolerance is not used
   bool optional = false;  // scenes that are not on this machine are left out, and that is said
 };
 

@@ -34,12 +34,21 @@ uint64_t parse_seed(const std::string& text) {
 }
 
 // What tells the run from all others on its scene and lights: every knob that the file sets.
-std::string label(const RunGroup& group, const std::string& preset, const std::string& seed,
-                  const std::vector<KnobSetting>& settings) {
+std::string label(const RunGroup& group, const std::string& preset, const std::string& tolerance,
+                  const std::string& seed, const std::vector<KnobSetting>& settings) {
   std::string text = preset;
+  if (!tolerance.empty()) text += fmt::format(" tolerance={}", tolerance);
   for (const KnobSetting& s : settings) text += fmt::format(" {}={}", s.knob, s.value);
   if (group.seeds.size() > 1) text += fmt::format(" seed={}", seed);
   return text;
+}
+
+// Every preset with every tolerance.
+std::vector<std::pair<std::string, std::string>> with_tolerances(const RunGroup& group) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& preset : group.presets)
+    for (const std::string& tolerance : group.tolerances) pairs.emplace_back(preset, tolerance);
+  return pairs;
 }
 
 // Presets that the scenes have; empty for a scene that is not on this machine.
@@ -100,7 +109,7 @@ RunList make_runs(const Experiment& experiment, const SessionOptions& base, cons
       for (const std::string& lights : group.lights) {
         lightings.require(scene, lights);
         for (const std::string& seed : group.seeds)
-          for (const std::string& preset : group.presets)
+          for (const auto& [preset, tolerance] : with_tolerances(group))
             for (const std::vector<KnobSetting>& settings : knob_products(group)) {
               ComparePlan plan;
               plan.session = base;
@@ -113,8 +122,11 @@ RunList make_runs(const Experiment& experiment, const SessionOptions& base, cons
               plan.reference_samples = experiment.reference_samples;
               plan.reference_estimator = Estimator::light_vertex;
               plan.repeats = experiment.repeats;
+              EffectOptions effects = group.effects;
+              effects.tolerance = tolerance;
+              plan.effects = plan_effect_options(effects, {&method});
               list.runs.push_back(
-                  {std::move(plan), label(group, preset, seed, settings), lightings.hash(scene)});
+                  {std::move(plan), label(group, preset, tolerance, seed, settings), lightings.hash(scene)});
             }
       }
     }

@@ -83,6 +83,25 @@ void add_errors(Table& table, Row& row, const RunRecord& r) {
   table.set(row, "edge_share_percent", 100 * r.errors->edge_share);
 }
 
+// What the effect planner left out, in per cent of the picture.
+void add_effects(Table& table, Row& row, const RunRecord& r) {
+  if (!r.effect_plan) return;
+  const EffectPlan& plan = *r.effect_plan;
+  table.set(row, "tolerance_percent", 100 * plan.tolerance);
+  for (const EffectDecision& d : plan.effects) table.set(row, "effect." + d.effect, d.level);
+  table.set(row, "left_out_predicted_percent", 100 * plan.loss.value);
+  table.set(row, "plan_s", plan.seconds);
+  if (!plan.check) return;
+  table.set(row, "left_out_measured_percent", 100 * plan.check->measured.value);
+  table.set(row, "plan_verdict", to_string(plan.check->verdict));
+  if (const auto& all = plan.check->everything) {
+    table.set(row, "everything.precompute_s", all->precompute_s);
+    table.set(row, "everything.relight_ms", all->relight_ms);
+    table.set(row, "everything.megabytes", 1e-6 * static_cast<double>(all->bytes));
+    table.set(row, "planned.megabytes", 1e-6 * static_cast<double>(all->planned_bytes));
+  }
+}
+
 void add_costs(Table& table, Row& row, const RunRecord& r) {
   table.set(row, "precompute_s", r.precompute_s);
   table.set(row, "relight_ms", r.relight_ms.median);
@@ -107,6 +126,7 @@ std::string result_csv(const std::vector<RunRecord>& records) {
   std::vector<Row> rows(records.size());
   for (size_t i = 0; i < rows.size(); ++i) add_what(table, rows[i], records[i], knobs);
   for (size_t i = 0; i < rows.size(); ++i) add_errors(table, rows[i], records[i]);
+  for (size_t i = 0; i < rows.size(); ++i) add_effects(table, rows[i], records[i]);
   for (size_t i = 0; i < rows.size(); ++i) add_costs(table, rows[i], records[i]);
   for (size_t i = 0; i < rows.size(); ++i) {
     const RunRecord& r = records[i];

@@ -9,6 +9,7 @@
 #include "common/run/error.h"
 #include "common/run/progress.h"
 #include "experiments/compare/compare.h"
+#include "experiments/effects/plan_effects.h"
 
 namespace relight {
 namespace {
@@ -43,6 +44,7 @@ std::vector<RunRecord> latest_of_each(const std::vector<RunRecord>& records) {
   for (const RunRecord& r : records) {
     std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", r.scene, r.lighting, r.view, r.method, r.seed);
     for (const auto& [knob, value] : r.knobs) key += "\n" + knob + "=" + value;
+    if (r.effect_plan) key += fmt::format("\ntolerance={}", r.effect_plan->tolerance);
     const auto [at, is_new] = place.try_emplace(key, latest.size());
     if (is_new)
       latest.push_back(r);
@@ -90,12 +92,33 @@ RunRecord run_one(const PlannedRun& run, Sessions& sessions, const std::filesyst
 
 }  // namespace
 
+namespace {
+
+// The knobs that the run has once the record's plan is applied; nothing if the record has no plan that was
+// asked for in the same words.
+std::optional<KnobValues> knobs_of(const PlannedRun& run, const RunRecord& record) {
+  const KnobValues& knobs = run.plan.methods.front().knobs;
+  const auto& wanted = run.plan.effects;
+  if (!wanted) return record.effect_plan ? std::nullopt : std::optional(knobs);
+  const auto& plan = record.effect_plan;
+  if (!plan || plan->tolerance != wanted->tolerance || plan->asked != wanted->asked) return std::nullopt;
+  if (wanted->check && !(plan->check && plan->check->everything)) return std::nullopt;
+  try {
+    return planned_knobs(knobs, *plan);
+  } catch (const Error&) {  // of another version of the method
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
 bool is_record_of(const RunRecord& record, const PlannedRun& run) {
   const SessionOptions& s = run.plan.session;
   const MethodPlan& method = run.plan.methods.front();
-  return record.scene == s.scene && record.lighting == s.lights && record.view == s.view &&
+  const std::optional<KnobValues> knobs = knobs_of(run, record);
+  return knobs && record.scene == s.scene && record.lighting == s.lights && record.view == s.view &&
          record.scene_hash == run.scene_hash && record.seed == s.seed &&
-         record.method == method.method->name() && record.knobs == method.knobs.all() && record.reference &&
+         record.method == method.method->name() && record.knobs == knobs->all() && record.reference &&
          record.reference->samples >= run.plan.reference_samples;
 }
 

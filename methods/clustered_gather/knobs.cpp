@@ -17,6 +17,8 @@ KnobTable knob_table() {
        "View clusters that a pixel interpolates (paper: 10)."},
       {"glossy", choice, precompute, "auto", 0, 0, {"auto", "off"}, "direct_shading",
        "View clusters of their own for glossy reflection, if the view has any (paper), or none."},
+      {"bounces", integer, precompute, "1", 0, 1, {}, "direct_shading",
+       "Bounces of indirect light: 1 (paper), or 0: direct light alone, nothing is clustered or gathered."},
       {"normal_weight", real, precompute, "1", 0, 100, {}, "clustering",
        "Opposite normals count as the scene's diagonal times this (paper: about 1)."},
       {"clustering", choice, precompute, "two_phase", 0, 0, {"two_phase", "kmeans"}, "clustering",

@@ -1,5 +1,7 @@
 // Clustered Monte Carlo gather as a method: name, knobs, light paths; precompute.h and prepared_gather.h do
 // the work.
+#include "common/shading/direct_only.h"
+#include "common/shading/soft_shadows_effect.h"
 #include "methods/clustered_gather/clustered_gather.h"
 #include "methods/clustered_gather/error_stages.h"
 #include "methods/clustered_gather/knobs.h"
@@ -26,15 +28,24 @@ class ClusteredGather : public Method {
   KnobTable knobs() const override { return knob_table(); }
   LightPaths light_paths(const KnobValues& knobs) const override {
     LightPaths paths;
+    paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
     paths.environment = knobs.choice("environment") != "off";
     if (paths.environment) paths.environment_bounces = 0;
     return paths;
   }
+  std::vector<Effect> effects(const KnobValues&) const override {
+    return {
+        bounces_effect("bounces", 1),
+        switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
+                      "glossy", "off", "auto"),
+        soft_shadows_effect("area_light_samples")};
+  }
   ErrorStages error_stages(const KnobValues& knobs) const override {
     return clustered_gather::error_stages(knobs);
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
+    if (context.knobs.integer("bounces") == 0) return make_direct_only(name(), context);
     Artefact artefact = load_or_precompute(context);
     StageTimer timer(context.log, "upload");
     if (context.knobs.choice("device") == "cpu")

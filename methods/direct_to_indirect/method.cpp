@@ -1,5 +1,7 @@
 // Direct-to-indirect transfer as a method: name, knobs, light paths; precompute.h and prepared_transfer.h do
 // the work.
+#include "common/shading/direct_only.h"
+#include "common/shading/soft_shadows_effect.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "methods/direct_to_indirect/error_stages.h"
 #include "methods/direct_to_indirect/knobs.h"
@@ -33,7 +35,15 @@ class DirectToIndirect : public Method {
   ErrorStages error_stages(const KnobValues& knobs) const override {
     return direct_to_indirect::error_stages(knobs);
   }
+  std::vector<Effect> effects(const KnobValues&) const override {
+    return {
+        bounces_effect("bounces", 8),
+        switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
+                      "glossy", "off", "auto"),
+        soft_shadows_effect("area_light_samples")};
+  }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {
+    if (context.knobs.integer("bounces") == 0) return make_direct_only(name(), context);
     Artefact artefact = load_or_precompute(context);
     StageTimer timer(context.log, "upload");
     if (context.knobs.choice("device") == "cpu")
