@@ -30,7 +30,8 @@ class ClusteredGather : public Method {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
-    paths.environment = knobs.choice("environment") != "off";
+    // Direct light alone is that of lamps: make_direct_only knows no environment.
+    paths.environment = paths.max_bounces > 0 && knobs.choice("environment") != "off";
     if (paths.environment) paths.environment_bounces = 0;
     return paths;
   }

@@ -29,7 +29,8 @@ class DirectToIndirect : public Method {
     LightPaths paths;
     paths.max_bounces = static_cast<int>(knobs.integer("bounces"));
     paths.glossy_at_eye = knobs.choice("glossy") == "auto";
-    paths.environment = knobs.choice("environment") != "off";
+    // Direct light alone is that of lamps: make_direct_only knows no environment.
+    paths.environment = paths.max_bounces > 0 && knobs.choice("environment") != "off";
     return paths;
   }
   ErrorStages error_stages(const KnobValues& knobs) const override {
