@@ -159,7 +159,7 @@ TEST(NotSimulated, NamesWhatTheSceneHasAndThePathsLeaveOut) {
   scene.materials[0].emission = glm::vec3(1.0f);
   scene.environment.radiance = glm::vec3(1.0f);
   EXPECT_EQ(not_simulated(diffuse_one_bounce, scene).size(), 5u);
-  EXPECT_EQ(not_simulated(LightPaths{1, 8, true, true, true, true}, scene).size(), 1u);
+  EXPECT_EQ(not_simulated(LightPaths{1, 8, true, true, true, -1, true}, scene).size(), 1u);
 }
 
 }  // namespace
