@@ -44,7 +44,7 @@ const EffectDecision& decision(const EffectPlan& plan, const std::string& effect
 
 tiny::Rendering lit_sphere(float albedo, int width, int height) {
   Scene scene = tiny::empty_scene(glm::vec3(albedo));
-  tiny::add_sphere(scene, glm::vec3(0.0f), 1.0f, 48);
+  tiny::add_sphere(scene, glm::vec3(0.0f), 1.0f, 192);  // facets fine enough for the series
   scene.camera.eye = {0.0f, 0.0f, 0.3f};
   scene.camera.target = {0.1f, 0.05f, -1.0f};
   scene.camera.fov_y_degrees = 60.0f;

@@ -19,7 +19,7 @@ struct Known {
   const Method& method = find_method(methods, "path_tracing");
   KnobValues knobs{method.knobs()};
   std::vector<Effect> effects{bounces_effect("bounces_max", most)};
-  tiny::Rendering sphere = lit_sphere(albedo, 16, 12);
+  tiny::Rendering sphere = lit_sphere(albedo, 8, 8);
   LightingState lighting = lamp_in_the_centre();
   Progress quiet{true};
 
@@ -33,11 +33,11 @@ struct Known {
   }
 };
 
-// 300 pilots of 192 pixels. Red if replicates share random numbers (mutation to try: one seed for all), if
+// 200 pilots of 64 pixels. Red if replicates share random numbers (mutation to try: one seed for all), if
 // the noise is counted as light, or if a bounce is counted with its neighbour.
 TEST(PilotStatistics, IntervalsCoverTheKnownShareOfEveryBounce) {
   Known known;
-  constexpr int seeds = 150;
+  constexpr int seeds = 100;
   for (const int bounces : {0, 2}) {
     const double truth = share_of_bounces(albedo, bounces + 1, most);
     int covered = 0, too_low = 0;
