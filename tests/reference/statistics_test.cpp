@@ -156,7 +156,7 @@ TEST(PathTracer, RefusesSettingsOutOfRange) {
   refused([](auto& s) { s.batches = 1; });
   refused([](auto& s) { s.samples_per_pixel = 1; });
   refused([](auto& s) { s.paths.min_bounces = -1; });
-  refused([](auto& s) { s.paths.max_bounces = 0; });
+  refused([](auto& s) { s.paths.max_bounces = -1; });
   refused([](auto& s) { s.time_limit_s = std::numeric_limits<double>::quiet_NaN(); });
 }
 
