@@ -1,4 +1,5 @@
 #include "reference/path_sampler.h"
+#include "common/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace {
 
 // Bounces before Russian roulette: short paths carry most of the light and are never cut.
 constexpr int bounces_before_roulette = 4;
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include "common/image/metrics.h"
+#include "common/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,6 @@ constexpr glm::dvec3 luminance_weights{0.2126, 0.7152, 0.0722};
 struct Sample {
   glm::dvec3 a, r, sigma;
 };
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Exposed and clamped to [0,1]; a clamped value has no noise.
 Sample exposed(const Sample& s, double exposure) {

@@ -1,4 +1,5 @@
 #include "common/lights/light.h"
+#include "common/finite.h"
 
 #include <cmath>
 
@@ -7,8 +8,6 @@
 namespace relight {
 
 namespace {
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string show(const glm::vec3& v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 

@@ -1,4 +1,5 @@
 #include "common/scene/validation.h"
+#include "common/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@
 namespace relight {
 
 namespace {
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void count(Scene& scene, const char* what, int64_t n) {
   if (n > 0) scene.repairs.counts[what] += n;

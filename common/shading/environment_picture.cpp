@@ -1,4 +1,5 @@
 #include "common/shading/environment_picture.h"
+#include "common/finite.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -8,12 +9,6 @@
 #include "common/shading/non_finite_report.h"
 
 namespace relight {
-namespace {
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-}  // namespace
-
 EnvironmentPicture::EnvironmentPicture(const DeepFrameBuffer& buffer, Upsampling upsampling)
     : buffer_(buffer), sources_(indirect_sources(buffer, upsampling)) {}
 

@@ -1,4 +1,5 @@
 #include "common/shading/fused_reconstruction.h"
+#include "common/finite.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -24,8 +25,6 @@ unsigned source_code(uint32_t source, int x, int y, int width) {
   const int sx = static_cast<int>(source) % width, sy = static_cast<int>(source) / width;
   return static_cast<unsigned>((sy - y + 1) * 3 + (sx - x + 1));
 }
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 

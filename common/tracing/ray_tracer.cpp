@@ -1,4 +1,5 @@
 #include "common/tracing/ray_tracer.h"
+#include "common/finite.h"
 
 #include <embree3/rtcore.h>
 
@@ -19,8 +20,6 @@ namespace {
 // below any feature. Camera and lights don't enter: hit points come from barycentrics, not from eye + t *
 // direction.
 constexpr float offset_in_ulps = 32.0f;
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 [[noreturn]] void refuse_ray(const char* what, const glm::vec3& a, const glm::vec3& b) {
   fail(

@@ -1,4 +1,5 @@
 #include "experiments/compare/method_record.h"
+#include "common/finite.h"
 
 #include <cmath>
 
@@ -10,8 +11,6 @@
 namespace relight {
 
 namespace {
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void report_non_finite(RunRecord& record, const char* name, const Image& image) {
   int64_t count = 0;

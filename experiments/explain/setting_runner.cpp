@@ -1,4 +1,5 @@
 #include "experiments/explain/setting_runner.h"
+#include "common/finite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ DeepFrameBuffer with_wanted(const DeepFrameBuffer& buffer, const PixelSubset& su
   out.wanted = pixel_mask(subset);
   return out;
 }
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void require_finite(const Image& image, const std::string& label, const char* which) {
   const auto bad = std::find_if_not(image.pixels.begin(), image.pixels.end(), finite);

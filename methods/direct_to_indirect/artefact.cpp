@@ -5,7 +5,6 @@
 #include "common/run/byte_stream.h"
 #include "common/run/cached_artefact.h"
 #include "common/run/error.h"
-#include "common/sampling/random.h"
 #include "methods/direct_to_indirect/light_points.h"
 
 namespace relight::direct_to_indirect {
@@ -13,11 +12,9 @@ namespace {
 
 constexpr int precompute_version = 14;
 
-uint64_t hash_of(const std::vector<uint8_t>& mask) {
-  uint64_t hash = mask.size();
-  for (size_t i = 0; i < mask.size(); ++i)
-    if (mask[i]) hash = hash_combine(hash, i);
-  return hash;
+std::string versioned(const std::string& words) {
+  return fmt::format("version={};layout={},{},{};{}", precompute_version, sizeof(SurfaceSample),
+                     sizeof(SparseEntry), sizeof(SparseEntryRgb), words);
 }
 
 void append_rows(std::vector<std::byte>& out, const SparseRows& rows) {
@@ -55,14 +52,11 @@ bool wants_environment(const PrepareContext& context) {
 }
 
 std::string cache_key(const PrepareContext& context) {
-  return fmt::format("{};wanted={:016x};{}{}", view_key(context), hash_of(context.buffer.wanted),
-                     context.knobs.precompute_key(), wants_environment(context) ? ";with environment" : "");
+  return fmt::format("{};{}{}", versioned(pixel_words(context)), context.knobs.precompute_key(),
+                     wants_environment(context) ? ";with environment" : "");
 }
 
-std::string view_key(const PrepareContext& context) {
-  return fmt::format("version={};layout={},{},{};{}", precompute_version, sizeof(SurfaceSample),
-                     sizeof(SparseEntry), sizeof(SparseEntryRgb), view_words(context));
-}
+std::string view_key(const PrepareContext& context) { return versioned(view_words(context)); }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
   std::vector<std::byte> out;

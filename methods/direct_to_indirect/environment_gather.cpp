@@ -1,6 +1,7 @@
 #include "methods/direct_to_indirect/environment_gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <numbers>
 
 #include "common/sampling/random.h"
@@ -117,7 +118,7 @@ uint32_t EnvironmentGather::seen(const Tile& tile, uint32_t texel, uint32_t whol
     const uint32_t active = undecided & (wholly | above[d]);
     if (active == 0) continue;
     free |= tracer_.visible16_along(tile.origin.data(), far_ * texels_[texel].direction[d], active);
-    rays += __builtin_popcount(active);
+    rays += std::popcount(active);
     undecided &= ~active;
   }
   return free;

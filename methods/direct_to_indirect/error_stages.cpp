@@ -128,9 +128,13 @@ ErrorStage links(const KnobValues& knobs) {
       knobs.real("link_threshold") > 0.0};
 }
 
-// Larger clouds, as far as the knob's range goes.
+// More points and larger clouds, as far as the knob's range goes.
 std::vector<ErrorStage> larger_clouds(const KnobValues& knobs) {
   std::vector<ErrorStage> out;
+  if (knobs.choice("light_points") == "1")
+    out.push_back({"4 points a gather sample",
+                   "The same with direct light averaged over four points of each cell.",
+                   {{"light_points", "4"}}});
   for (const int64_t factor : {4, 16}) {
     const int64_t samples = factor * knobs.integer("gather_samples");
     if (samples > 1048576) break;
@@ -150,9 +154,9 @@ ErrorStages error_stages(const KnobValues& knobs) {
                 multi_bounce(knobs), link_members(knobs), links(knobs)};
   out.remainder = "gather cloud";
   out.remainder_sentence = fmt::format(
-      "Direct light is known at {} gather samples, each of which stands for its cell; twin: the "
+      "Direct light is known at {} gather samples, each of which stands for its cell{}; twin: the "
       "reference.",
-      knobs.integer("gather_samples"));
+      knobs.integer("gather_samples"), knobs.choice("light_points") == "1" ? "" : ", at four points of it");
   out.closer = larger_clouds(knobs);
   return out;
 }

@@ -82,8 +82,8 @@ struct FinalGatherInput {
 };
 
 struct FinalGather {
-  SparseRows
-      diffuse;  // one row a view sample of `buffer`, empty for invalid ones; with a basis, in its order
+  // One row a view sample of `buffer`, empty for invalid ones; with a basis one a coefficient, in its order.
+  SparseRows diffuse;
   std::vector<uint32_t> glossy_pixels;  // view samples that have a glossy row, ascending
   SparseRows glossy;                    // one row a glossy pixel; nothing at all if there is none
 };

@@ -2,9 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 namespace relight::direct_to_indirect {
+namespace {
+
+// Ties go to the smaller column, then to the earlier row.
+bool heavier(const TileCandidate& a, const TileCandidate& b) {
+  const Candidate &x = a.candidate, &y = b.candidate;
+  if (x.weight != y.weight) return x.weight > y.weight;
+  return std::pair(x.entry.column, a.lane) < std::pair(y.entry.column, b.lane);
+}
+
+void bring_heaviest_to_front(std::vector<TileCandidate>& candidates, size_t count) {
+  if (count < candidates.size())
+    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                     candidates.end(), heavier);
+}
+
+}  // namespace
 
 void RowBuilder::add(RowScratch& scratch, const std::vector<LaneCoefficient>& coefficients, int t) {
   const bool transformed = basis_ && basis_->transformed(t);
@@ -76,29 +92,24 @@ void RowBuilder::select_shared(RowScratch& scratch, const std::vector<LaneCoeffi
   Lanes ones;
   ones.fill(1.0f);
   select_largest(coefficients, settings_.support_exponent, columns_, ones, limit, scratch.selection);
-  std::vector<float> weights;
-  for (size_t i = 0; i < lanes; ++i) {
+  std::vector<TileCandidate>& candidates = scratch.of_tile;
+  candidates.clear();
+  for (uint32_t i = 0; i < lanes; ++i) {
+    scratch.rows[i] = {};
     scratch.totals.before += scratch.selection.count[i];
     scratch.totals.energy_before += scratch.selection.energy[i];
-    for (const Candidate& c : scratch.selection.largest[i]) weights.push_back(c.weight);
+    for (const Candidate& c : scratch.selection.largest[i]) candidates.push_back({c, i});
   }
-  const auto lightest = [&weights](size_t kept) {
-    if (kept >= weights.size()) return -1.0f;
-    std::nth_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(kept), weights.end(),
-                     std::greater<float>());
-    return weights[kept];
-  };
-  const float kept = lightest(budget), looked_at = lightest(limit);
-  for (size_t i = 0; i < lanes; ++i) {
-    std::vector<Candidate>& candidates = scratch.selection.largest[i];
-    const auto count = [&candidates](float least) {
-      return static_cast<size_t>(
-          std::ranges::count_if(candidates, [least](const Candidate& c) { return c.weight > least; }));
-    };
-    scratch.rows[i] = {{}, count(kept)};
-    keep_largest(candidates, count(looked_at));
-    for (const Candidate& c : candidates) scratch.rows[i].entries.push_back(c.entry);
+  // Those to be kept before those that a refit may take instead, before the rest.
+  bring_heaviest_to_front(candidates, limit);
+  candidates.resize(std::min(limit, candidates.size()));
+  bring_heaviest_to_front(candidates, budget);
+  for (size_t n = 0; n < candidates.size(); ++n) {
+    RefitRow& row = scratch.rows[candidates[n].lane];
+    row.entries.push_back(candidates[n].candidate.entry);
+    if (n < budget) ++row.target;
   }
+  for (RefitRow& row : scratch.rows) std::ranges::sort(row.entries, {}, &SparseEntry::column);
 }
 
 Lanes RowBuilder::row_factors(const std::array<const SurfaceSample*, lanes>& samples) const {

@@ -28,10 +28,17 @@ struct RowTotals {
   }
 };
 
+// A coefficient of one of a tile's rows.
+struct TileCandidate {
+  Candidate candidate;
+  uint32_t lane;
+};
+
 // Scratch of one worker thread.
 struct RowScratch {
-  std::vector<LaneCoefficient> transformed;  // with a basis
-  std::optional<LightRefit> refit;           // none: coefficients stay as they are
+  std::vector<LaneCoefficient> transformed;  // with a basis, like of_tile
+  std::vector<TileCandidate> of_tile;
+  std::optional<LightRefit> refit;  // none: coefficients stay as they are
   std::array<RefitRow, lanes> rows;
   LaneSelection selection;
   RowTotals totals;

@@ -5,7 +5,8 @@
 // The transform is orthonormal, so what truncation drops from the rows is what the pixels lose. Not in the
 // paper.
 //
-// A tile that holds background is not transformed.
+// A tile that holds background is not transformed. The glossy matrix keeps a row for each view sample, and so
+// do those of the environment.
 #pragma once
 
 #include <optional>

@@ -1,26 +1,20 @@
 // Directions that hit nothing as environment samples of clustered gather.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <cmath>
-#include <filesystem>
-
-#include "common/gpu/context.h"
-#include "common/run/artefact_cache.h"
 #include "common/sampling/environment_samples.h"
 #include "common/sampling/random.h"
-#include "common/tracing/ray_tracer.h"
-#include "methods/clustered_gather/clustered_gather.h"
 #include "methods/clustered_gather/environment_shares.h"
 #include "reference/path_tracer.h"
+#include "tests/clustered_gather/gather_bench.h"
 #include "tests/reference/skies.h"
 #include "tests/support/tiny_scenes.h"
 
 namespace relight::clustered_gather {
 namespace {
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
+using test::Knobs;
+using test::norm;
+using test::relative_difference;
 
 std::vector<Miss> random_misses(size_t count) {
   std::vector<Miss> misses;
@@ -30,8 +24,8 @@ std::vector<Miss> random_misses(size_t count) {
   return misses;
 }
 
-// Red if a miss is lost or counted twice where a node is cut (not tried yet: the run's last miss left out), or a
-// node's column belongs to another level (not tried yet).
+// Red if a miss is lost or counted twice where a node is cut (not tried yet: the run's last miss left out),
+// or a node's column belongs to another level (not tried yet).
 TEST(EnvironmentShares, KeepWeightAndLimitAndStandForTheirOwnDirections) {
   for (const size_t limit : {1, 2, 7, 60, 0}) {
     std::vector<Miss> misses = random_misses(300);
@@ -58,34 +52,12 @@ TEST(EnvironmentShares, KeepWeightAndLimitAndStandForTheirOwnDirections) {
   EXPECT_TRUE(environment_samples(none, 4, 10).empty());
 }
 
-struct Bench {
-  explicit Bench(Scene s) : scene(std::move(s)) {}
-  Scene scene;
-  RayTracer tracer{scene};
-  DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 40, 30});
-  std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
-  std::unique_ptr<Method> method = make_clustered_gather();
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("relight_clustered_sky_" + std::to_string(::getpid()));
-  ArtefactCache cache{folder, true};
-  Progress progress{true};
-  StageLog precompute_log, relight_log;
-  ~Bench() { std::filesystem::remove_all(folder); }
-
-  std::unique_ptr<Prepared> prepare(const Knobs& knobs) {
-    KnobValues values(method->knobs());
-    for (const auto& [name, value] : Knobs{{"view_clusters", "200"},
-                                           {"directions", "200"},
-                                           {"gather_clusters", "16"},
-                                           {"shadows", "traced"}})
-      values.set(name, value);
-    for (const auto& [name, value] : knobs) values.set(name, value);
-    precompute_log = {};
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, precompute_log});
-  }
-  Relit relight(const Knobs& knobs, const LightingState& lighting) {
-    relight_log = {};
-    return prepare(knobs)->relight(lighting, relight_log);
+// Traced shadows, so that devices differ by rounding.
+struct Bench : test::GatherBench {
+  using GatherBench::GatherBench;
+  Relit relight(Knobs knobs, const LightingState& lighting) {
+    knobs.insert(knobs.begin(), {{"directions", "200"}, {"shadows", "traced"}});
+    return GatherBench::relight(knobs, lighting);
   }
 };
 
@@ -96,17 +68,6 @@ Scene room(const Environment& environment, bool glossy = false) {
   scene.environment = environment;
   finish_scene(scene);
   return scene;
-}
-
-double norm(const Image& image) {
-  double sum = 0.0;
-  for (const glm::vec3& p : image.pixels) sum += glm::dot(glm::dvec3(p), glm::dvec3(p));
-  return std::sqrt(sum);
-}
-double relative_difference(const Image& a, const Image& b) {
-  Image d = a;
-  for (size_t i = 0; i < d.pixels.size(); ++i) d.pixels[i] -= b.pixels[i];
-  return norm(d) / norm(b);
 }
 
 // Weights of directions that follow the cosine sum to one whatever they are clustered into: exact to
@@ -127,8 +88,8 @@ TEST(ClusteredEnvironment, AnOpenPlaneUnderAConstantSkyReflectsItsAlbedo) {
     }
 }
 
-// Bounds as in method_test.cpp. Not tried yet, each should be red: the glossy clusters' rows left out; links applied twice on
-// the GPU.
+// Bounds as in method_test.cpp. Not tried yet, each should be red: the glossy clusters' rows left out; links
+// applied twice on the GPU.
 TEST(ClusteredEnvironment, CpuAndGpuAgreeWithTheDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {
     Bench bench(room(tiny::uneven_map(32, 16, 0.4f), glossy));

@@ -4,71 +4,31 @@
 // relight knob in it.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <cmath>
-#include <filesystem>
-
-#include "common/gpu/context.h"
-#include "common/run/artefact_cache.h"
 #include "common/sampling/random.h"
 #include "common/shading/direct_lighting.h"
 #include "common/shading/reconstruction.h"
-#include "common/tracing/ray_tracer.h"
 #include "methods/clustered_gather/artefact.h"
-#include "methods/clustered_gather/clustered_gather.h"
+#include "tests/clustered_gather/gather_bench.h"
 #include "tests/support/tiny_scenes.h"
 
 namespace relight {
 namespace {
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
+using test::Knobs;
+using test::norm;
+using test::relative_difference;
 
-struct Bench {
-  explicit Bench(bool glossy = false) : scene(tiny::room(2.0f, glm::vec3(0.0f), glossy)) {}
-  Scene scene;
-  RayTracer tracer{scene};
-  DeepFrameBuffer buffer = make_deep_frame_buffer(scene, tracer, {scene.camera, 40, 30});
-  std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
-  std::unique_ptr<Method> method = make_clustered_gather();
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("relight_clustered_" + std::to_string(::getpid()));
-  ArtefactCache cache{folder, true};
-  Progress progress{true};
-  StageLog precompute_log;
-
-  ~Bench() { std::filesystem::remove_all(folder); }
-
-  std::unique_ptr<Prepared> prepare(const Knobs& knobs) {
-    KnobValues values(method->knobs());
-    for (const auto& [name, value] :
-         Knobs{{"view_clusters", "200"}, {"directions", "100"}, {"gather_clusters", "16"}})
-      values.set(name, value);
-    for (const auto& [name, value] : knobs) values.set(name, value);
-    precompute_log = {};
-    return method->prepare({scene, tracer, buffer, values, 1, *context, cache, progress, precompute_log});
-  }
+struct Bench : test::GatherBench {
+  explicit Bench(bool glossy = false) : GatherBench(tiny::room(2.0f, glm::vec3(0.0f), glossy)) {}
   Relit relight(const Knobs& knobs, const std::vector<Light>& lights) {
-    StageLog log;
-    Relit relit = prepare(knobs)->relight({"tiny", lights}, log);
-    EXPECT_TRUE(log.warnings().empty());
+    Relit relit = GatherBench::relight(knobs, {"tiny", lights});
+    EXPECT_TRUE(relight_log.warnings().empty());
     return relit;
   }
 };
 
 const Light lamp = tiny::omni({0.2f, 0.4f, 0.7f}),
             other = tiny::spot({-0.3f, 0.8f, 0.6f}, {0.1f, -1, -0.2f}, 20, 30);
-
-double norm(const Image& image) {
-  double sum = 0.0;
-  for (const glm::vec3& p : image.pixels) sum += glm::dot(glm::dvec3(p), glm::dvec3(p));
-  return std::sqrt(sum);
-}
-double relative_difference(const Image& a, const Image& b) {
-  Image d = a;
-  for (size_t i = 0; i < d.pixels.size(); ++i) d.pixels[i] -= b.pixels[i];
-  return norm(d) / norm(b);
-}
 
 // Sums of 16 samples and of 10 links in float: 30 roundings of 2^-24 = 1.8e-6. With shadow maps the pictures
 // would differ by their shadows, so all three trace them. Red if a link's weight goes to its neighbour, a
@@ -167,7 +127,7 @@ TEST(ClusteredGather, IsBlackWithoutLightAndForAViewOfNothing) {
   EXPECT_EQ(norm(bench.relight({}, {}).total), 0.0);
   for (SurfaceSample& s : bench.buffer.indirect) s.valid = false;
   for (SurfaceSample& s : bench.buffer.direct) s.valid = false;
-  bench.cache = ArtefactCache(bench.folder, false);
+  bench.cache = ArtefactCache::in_memory();
   for (const char* device : {"gpu", "cpu", "oracle"})
     EXPECT_EQ(norm(bench.relight({{"device", device}}, {lamp}).total), 0.0) << device;
 }

@@ -11,9 +11,12 @@
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "methods/direct_to_indirect/multi_bounce_light.h"
 #include "tests/direct_to_indirect/multi_bounce_setup.h"
+#include "tests/support/image_difference.h"
 
 namespace relight::direct_to_indirect {
 namespace {
+
+using test::relative_difference;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -50,15 +53,6 @@ struct Bench {
         tiny::lighting({tiny::omni({0.3f, 0.6f, 0.4f}, {2.0f, 1.5f, 1.0f})}), relight_log);
   }
 };
-
-double relative_difference(const Image& a, const Image& b) {
-  double difference = 0.0, norm = 0.0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]), v(b.pixels[i]);
-    difference += glm::dot(d, d), norm += glm::dot(v, v);
-  }
-  return std::sqrt(difference / norm);
-}
 
 double sum(const Image& image) {
   double total = 0.0;

@@ -9,10 +9,13 @@
 #include "methods/direct_to_indirect/artefact.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
 #include "tests/direct_to_indirect/gather_setup.h"
+#include "tests/support/image_difference.h"
 #include "tests/support/tiny_scenes.h"
 
 namespace relight::direct_to_indirect {
 namespace {
+
+using test::relative_difference;
 
 // Runs the method on the tiny room; 60x45 view, 1024 gather samples.
 struct Bench {
@@ -38,15 +41,6 @@ struct Bench {
     return method->prepare(prepare)->relight(lighting, relight_log);
   }
 };
-
-double relative_difference(const Image& a, const Image& b) {
-  double difference = 0.0, norm = 0.0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]), v(b.pixels[i]);
-    difference += glm::dot(d, d), norm += glm::dot(v, v);
-  }
-  return std::sqrt(difference / norm);
-}
 
 const Light lamp = tiny::omni({0.3f, 0.6f, 0.4f}, glm::vec3(2.0f, 1.5f, 1.0f));
 const Light beam = tiny::spot({-0.4f, 0.9f, 0.5f}, {0.2f, -1.0f, -0.1f}, 15.0f, 20.0f, glm::vec3(3.0f));

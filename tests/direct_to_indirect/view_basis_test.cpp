@@ -1,10 +1,12 @@
 // Rows that belong to wavelets over 4x4 view samples instead of single ones.
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "common/run/error.h"
 #include "common/run/thread_limit.h"
+#include "methods/direct_to_indirect/row_builder.h"
 #include "tests/support/tiny_scenes.h"
 #include "tests/support/transfer_bench.h"
 
@@ -61,6 +63,27 @@ TEST(ViewBasis, LosesLessToTruncationWithAsManyCoefficients) {
   EXPECT_GT(counter(bench.prepare_log, "non_zeros"), pixels_kept * 99 / 100);
   EXPECT_LT(relative_difference(haar.indirect, all.indirect),
             0.6 * relative_difference(pixels.indirect, all.indirect));
+}
+
+// Thirty coefficients of one weight, of which a budget of 16 keeps those of the smallest columns: no fewer.
+// Red if ties are dropped together (tried: only what is heavier than the heaviest that is not kept).
+TEST(ViewBasis, KeepsItsBudgetAmongCoefficientsOfEqualWeight) {
+  TransferBench bench(tiny::room(), 4, 4);
+  FinalGatherSettings settings;
+  settings.coefficients = 1;
+  settings.support_exponent = 0.0f;
+  const wavelet::PictureHaar basis(4, 4, {1});
+  RowBuilder builder(bench.buffer, settings, MatrixPart::diffuse, 1024, 0.0f, &basis);
+  std::vector<LaneCoefficient> spikes;  // each three fine details of 1/2, and four smaller coefficients
+  for (uint32_t column = 1; column <= 10; ++column) spikes.push_back({column, Lanes{1.0f}});
+  RowScratch scratch;
+  builder.add(scratch, spikes, 0);
+  const SparseRows rows = builder.finish();
+  EXPECT_EQ(rows.entries.size(), 16u);
+  for (const SparseEntry& e : rows.entries) {
+    EXPECT_EQ(std::abs(e.value), 0.5f);
+    EXPECT_LE(e.column, 6u);
+  }
 }
 
 // 100 products and 5 Haar levels in float against double: 100 roundings of 2^-24, as without a basis.

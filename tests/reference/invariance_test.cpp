@@ -1,8 +1,11 @@
 // Pictures don't depend on the unit of length or the place of the origin.
 #include "tests/reference/render.h"
+#include "tests/support/image_difference.h"
 
 namespace relight::tiny {
 namespace {
+
+using test::relative_difference;
 
 struct Placed {
   Image direct, indirect;
@@ -20,15 +23,6 @@ Placed render_placed(float scale, const glm::vec3& centre) {
       render(lights, settings(Estimator::light_vertex, 64, 2, bounces(1, 2, true)));
   EXPECT_EQ(result.non_finite, 0);
   return {result.direct, result.indirect};
-}
-
-double relative_difference(const Image& a, const Image& b) {
-  double difference = 0, norm = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
-    difference += glm::dot(d, d), norm += glm::dot(glm::dvec3(b.pixels[i]), glm::dvec3(b.pixels[i]));
-  }
-  return std::sqrt(difference / norm);
 }
 
 // The random numbers are the same, so only rounding differs: single paths may change sides at an edge, most

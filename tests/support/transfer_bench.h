@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include "common/run/artefact_cache.h"
 #include "common/tracing/ray_tracer.h"
 #include "methods/direct_to_indirect/direct_to_indirect.h"
+#include "tests/support/image_difference.h"
 
 namespace relight::test {
 
@@ -51,24 +51,10 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
-  StageLog prepare_log;            // of the last prepare
+  StageLog prepare_log;  // of the last prepare
   // See PrepareContext.
   ArtefactCache* parts = nullptr;
   const LightingState* lighting = nullptr;
 };
-
-inline double norm(const Image& image) {
-  double sum = 0.0;
-  for (const glm::vec3& p : image.pixels) sum += glm::dot(glm::dvec3(p), glm::dvec3(p));
-  return std::sqrt(sum);
-}
-
-// |a - b|_2 / |b|_2; 0 if both are black. NaN if a value is.
-inline double relative_difference(const Image& a, const Image& b) {
-  Image difference = a;
-  for (size_t i = 0; i < a.pixels.size(); ++i) difference.pixels[i] -= b.pixels[i];
-  const double d = norm(difference);
-  return d == 0.0 ? 0.0 : d / norm(b);
-}
 
 }  // namespace relight::test
