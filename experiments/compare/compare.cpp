@@ -80,8 +80,8 @@ RunRecord Comparison::finish(StartedRun started, const std::filesystem::path& fo
   StageLog reference_log;
   const ReferenceImages& made = reference(method, reference_log);
   add_errors(record, run.relit, made, session_);
-  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
-                         reference_log.warnings().end());
+  for (const auto* warnings : {&made.warnings, &reference_log.warnings()})
+    record.warnings.insert(record.warnings.end(), warnings->begin(), warnings->end());
   if (record.effect_plan) check_effects_of(started.asked, run, record);
   try {
     write_run_images(folder, record.method, run.relit, made.result,

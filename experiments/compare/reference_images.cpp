@@ -4,6 +4,7 @@
 
 #include "common/lights/light_words.h"
 #include "common/run/error.h"
+#include "common/run/making_log.h"
 #include "experiments/compare/result_bytes.h"
 #include "experiments/options/parse.h"
 
@@ -60,24 +61,32 @@ ReferenceImages reference_images(Session& session, const PathTracerSettings& set
   };
   const View& view = session.buffer().view;
   const bool repeatable = settings.time_limit_s <= 0.0;
-  const std::string key = reference_key(session, settings);
+  const std::string key = reference_key(session, settings), log_kind = std::string(kind) + ".log";
   if (repeatable) {
     if (const auto bytes = session.cache().load(kind, key)) {
       if (auto result = result_from_bytes(*bytes, view.width, view.height)) {
-        return {settings, std::move(*result), true, elapsed()};
+        ReferenceImages found{settings, std::move(*result), true, elapsed(), {}};
+        // Pictures of older programs have no log.
+        const auto log_bytes = session.cache().load(log_kind, key);
+        if (const auto made = log_bytes ? making_log_from_bytes(*log_bytes) : std::nullopt)
+          found.warnings = made->log.warnings();
+        return found;
       }
     }
   }
-  PathTracerResult result =
-      path_trace(session.tracer(), session.buffer(), session.lighting(), settings, session.progress(), log);
+  MakingLog made;
+  PathTracerResult result = path_trace(session.tracer(), session.buffer(), session.lighting(), settings,
+                                       session.progress(), made.log);
+  made.seconds = elapsed();
   if (repeatable && session.cache().enabled()) {
     try {
+      session.cache().store(log_kind, key, to_bytes(made));
       session.cache().store(kind, key, to_bytes(result));
     } catch (const Error& error) {
       log.warn(fmt::format("the reference was not cached: {}", error.what()));
     }
   }
-  return {settings, std::move(result), false, elapsed()};
+  return {settings, std::move(result), false, elapsed(), made.log.warnings()};
 }
 
 }  // namespace relight

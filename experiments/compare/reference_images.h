@@ -16,7 +16,8 @@ struct ReferenceImages {
   PathTracerSettings settings;
   PathTracerResult result;
   bool from_cache = false;
-  double seconds = 0.0;  // wall time of this invocation: tracing or loading
+  double seconds = 0.0;               // wall time of this invocation: tracing or loading
+  std::vector<std::string> warnings;  // of its tracing, kept in the cache with it
 };
 
 // Everything the picture depends on but for the number of samples, in words and exact decimal numbers.

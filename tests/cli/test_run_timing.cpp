@@ -60,16 +60,16 @@ void expect_ended_early(bool reports_progress) {
   TemporaryFolder folder;
   MethodList methods;
   methods.push_back(make_slow_method(reports_progress));
-  methods.push_back(make_ten_percent_method());
+  methods.push_back(make_listening_method(std::make_shared<std::vector<int64_t>>()));
   const auto start = std::chrono::steady_clock::now();
   const ExperimentResult result =
       run(folder, methods,
-          "repeats = 1\ntime_limit_s = 0.1\n" + group("slow") +
-              "[[runs]]\nscenes = ['cornell']\nlights = ['spot']\nmethod = 'ten_percent'\n");
+          "repeats = 1\ntime_limit_s = 1\n" + group("slow") +
+              "[[runs]]\nscenes = ['cornell']\nlights = ['spot']\nmethod = 'listening'\n");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8));
   ASSERT_EQ(result.records.size(), 2u);
   ASSERT_EQ(result.failures.size(), 1u);
-  EXPECT_NE(result.failures[0].find("relight: over its time limit of 0.1 s, at 'waiting'"), std::string::npos)
+  EXPECT_NE(result.failures[0].find("relight: over its time limit of 1 s, at 'waiting'"), std::string::npos)
       << result.failures[0];
   EXPECT_TRUE(result.records[1].errors);
 }
