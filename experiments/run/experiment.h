@@ -30,6 +30,7 @@ struct Experiment {
   std::string view;
   int reference_samples = 128;
   int repeats = 0;
+  std::vector<std::filesystem::path> paper_numbers;  // files of a paper's figures, to stand beside ours
   std::vector<RunGroup> groups;
 };
 
