@@ -31,6 +31,8 @@ KnobTable knob_table() {
        "Texels of the environment, the finest that its light is told apart by; a power of four."},
       {"device", choice, relight, "gpu", 0, 0, {"gpu", "cpu", "oracle"}, "indirect_sum",
        "Everything in GLSL; all on the CPU with traced shadows; or sums in double precision on the CPU after shading on the GPU."},
+      {"storage", choice, relight, "full", 0, 0, {"full", "half", "bytes"}, "direct_shading",
+       "Gather samples as 32-bit floats (64 bytes), as 16-bit floats (20 bytes, as in the paper), or as integers (12 bytes); link weights as 32-bit or else 16-bit floats."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "shadow_maps",
        "Shadow maps or traced shadow rays; auto: maps on the GPU (paper), rays on the CPU."},
       {"area_light_samples", integer, relight, "16", 1, 4096, {}, "direct_shading",

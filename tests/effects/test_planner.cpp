@@ -93,6 +93,11 @@ TEST(Planner, EnvironmentSamplesAreTakenOnlyWhereThereIsAnEnvironment) {
   const EffectPlan with = plan_of({"sky", "omni", "path_tracing"});
   EXPECT_EQ(decision(with, "environment").level, "on");
   EXPECT_EQ(decision(with, "environment").by, DecidedBy::pilot);
+  // Every method that can leave it out.
+  for (const char* method : {"direct_to_indirect", "clustered_gather"}) {
+    EXPECT_EQ(decision(plan_of({"cornell", "omni", method}), "environment").level, "off");
+    EXPECT_EQ(decision(plan_of({"sky", "omni", method}), "environment").level, "on");
+  }
 }
 
 TEST(Planner, SoftShadowsAreComputedWhereALightHasAnArea) {
