@@ -38,7 +38,7 @@ class TransferBench {
     for (const auto& [name, value] : knobs) values.set(name, value);
     prepare_log = {};
     return method->prepare(
-        {scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log, parts, lighting});
+        {scene, tracer, buffer, values, seed, *context, cache, progress, prepare_log, parts, lighting});
   }
 
   Scene scene;
@@ -51,6 +51,7 @@ class TransferBench {
       std::filesystem::temp_directory_path() / ("relight_transfer_bench_" + std::to_string(::getpid()));
   ArtefactCache cache{folder, true};
   Progress progress{true};
+  uint64_t seed = 1;
   StageLog prepare_log;  // of the last prepare
   // See PrepareContext.
   ArtefactCache* parts = nullptr;
