@@ -193,6 +193,8 @@ std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Emitter& light,
   std::vector<gpu::Buffer> visibility;
   int64_t rays = 0;
   for (const Request& r : requests) {
+    if (r.samples->host().size() != r.samples->size())
+      throw std::logic_error("DirectLighting: traced shadows of samples that the host has dropped");
     visibility.push_back(gpu::Buffer::from(traced_visibility(tracer, r.samples->host(), light, rays)));
   }
   log.count("shadow_rays", rays);

@@ -25,12 +25,14 @@ class GpuSamples {
   GpuSamples(std::vector<SurfaceSample> samples, const glm::vec3& eye, int64_t slab_samples = 0);
   // Likewise of samples in a compact format.
   GpuSamples(const CompactSamples& samples, const glm::vec3& eye, int64_t slab_samples = 0);
-  size_t size() const { return samples_.size(); }
+  size_t size() const { return size_; }
   SampleFormat format() const { return format_; }
   // Of a compact format, for shaders: sample_formats.glsl.
   const glm::vec4& frame() const { return frame_; }
   float unit() const { return unit_; }
+  // Only traced shadows read the samples on the host. Nothing after drop_host(), which frees 128 bytes each.
   const std::vector<SurfaceSample>& host() const { return samples_; }
+  void drop_host() { samples_ = {}; }
   const glm::vec3& eye() const { return eye_; }
   int64_t bytes() const;
   // A large view may exceed what one dispatch can write (128 MiB under llvmpipe) or one texel view shows, so
@@ -49,6 +51,7 @@ class GpuSamples {
   Slab slab(int64_t first, int64_t count) const;
 
   std::vector<SurfaceSample> samples_;
+  size_t size_;
   glm::vec3 eye_;
   SampleFormat format_ = SampleFormat::full;
   glm::vec4 frame_{0.0f};

@@ -66,6 +66,7 @@ int64_t largest_slab(int64_t texels) {
 
 GpuSamples::GpuSamples(std::vector<SurfaceSample> samples, const glm::vec3& eye, int64_t slab_samples)
     : samples_(std::move(samples)),
+      size_(samples_.size()),
       eye_(eye),
       data_(static_cast<int64_t>(samples_.size() * sizeof(PackedSample))) {
   upload_pieces<PackedSample>(samples_, data_, pack);
@@ -79,6 +80,7 @@ GpuSamples::GpuSamples(std::vector<SurfaceSample> samples, const glm::vec3& eye,
 
 GpuSamples::GpuSamples(const CompactSamples& samples, const glm::vec3& eye, int64_t slab_samples)
     : samples_(unpacked(samples)),
+      size_(samples_.size()),
       eye_(eye),
       format_(samples.format),
       frame_(samples.frame),
@@ -88,7 +90,7 @@ GpuSamples::GpuSamples(const CompactSamples& samples, const glm::vec3& eye, int6
 }
 
 void GpuSamples::cut(int64_t slab_samples) {
-  const auto size = static_cast<int64_t>(samples_.size());
+  const auto size = static_cast<int64_t>(size_);
   const int64_t largest = slab_samples > 0 ? slab_samples : largest_slab(layout_of(format_).texels);
   for (int64_t first = 0; first < size; first += largest)
     slabs_.push_back(slab(first, std::min(largest, size - first)));

@@ -33,7 +33,11 @@ struct LitSamplesGpu {
         lighting(gpu, scene, tracer,
                  {knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
                   static_cast<int>(knobs.integer("shadow_map_size")),
-                  static_cast<int>(knobs.integer("area_light_samples"))}) {}
+                  static_cast<int>(knobs.integer("area_light_samples"))}) {
+    if (knobs.choice("shadows") == "traced") return;
+    gather.drop_host();
+    view.drop_host();
+  }
 
   LitSamplesGpuResult make() const {
     return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),
