@@ -125,7 +125,7 @@ TEST(EnvironmentMethod, RefusesAnEnvironmentThatComesTooLate) {
 }
 
 // The environment's light is kept while lamps move, computed again when it turns, and after forget(). Red if
-// what is kept is the environment's address (not tried yet: the comparison of texels left out).
+// what is kept is the environment's address (tried: the comparison of texels left out).
 TEST(EnvironmentMethod, KeepsItsLightWhileItStandsStill) {
   for (const char* device : {"cpu", "gpu"}) {
     TransferBench bench(room(tiny::uneven_map(16, 8, 0.0f)), 24, 18);
