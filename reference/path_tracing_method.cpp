@@ -128,6 +128,7 @@ class PathTracingPrepared : public Prepared {
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
     Progress quiet(true);
+    quiet.set_limit(log.limit());
     PathTracerResult result = path_trace(tracer_, buffer_, lighting, settings_, quiet, log);
     log.count("samples_per_pixel", result.samples_per_pixel);
     Relit relit;
@@ -152,6 +153,7 @@ class PathTracing : public Method {
   std::string paper() const override { return "James T. Kajiya: The Rendering Equation, SIGGRAPH 1986"; }
   KnobTable knobs() const override { return knob_table(); }
   LightPaths light_paths(const KnobValues& knobs) const override { return paths_of(knobs); }
+  bool repeatable(const KnobValues& knobs) const override { return knobs.integer("samples") > 0; }
   std::vector<Effect> effects(const KnobValues&) const override {
     return {bounces_effect("bounces_max", 8),
             boolean("glossy_at_eye", "Indirect light in glossy reflections at the visible surface."),

@@ -22,6 +22,8 @@ void add_references_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_explain_error_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
+void add_regress_command(CLI::App& app, Action& action);
+void add_publish_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_cache_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
