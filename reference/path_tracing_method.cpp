@@ -31,7 +31,8 @@ KnobTable knob_table() {
        {},
        "indirect",
        "Time of one relight, direct light included, in whole samples a pixel (at least one); used if samples "
-       "is 0."},
+       "is 0.",
+       tuned_by_factor(2, 16, 60000)},
       {"bounces_max",
        integer,
        relight,
@@ -47,7 +48,7 @@ KnobTable knob_table() {
        "next_event",
        0,
        0,
-       {"next_event", "light_vertex"},
+       {"next_event", "light_vertex", tuned_by_choice({"next_event", "light_vertex"})},
        "indirect",
        "Plain next-event estimation, or its combination with one vertex of a path from a light."},
       {"glossy_at_eye",

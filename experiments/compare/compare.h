@@ -27,6 +27,10 @@ class Comparison {
   // record with failed_stages; Error if the images cannot be written.
   RunRecord run(const MethodPlan& method, const std::filesystem::path& folder);
 
+  // The record alone, without effect planning and images: for searches over many settings. `cache`: of precomputed
+  // data; the session's keeps the reference.
+  RunRecord measure(const MethodPlan& method, ArtefactCache& cache);
+
  private:
   const ReferenceImages& reference(const MethodPlan& method, StageLog& log);
   void check_effects_of(const MethodPlan& asked, const MethodRun& run, RunRecord& record);
