@@ -11,6 +11,7 @@ namespace relight {
 namespace {
 
 constexpr size_t exchanges_a_round = 6;
+constexpr int most_repairs = 3;
 
 KnobValues with(KnobValues knobs, const std::string& name, const std::string& value) {
   knobs.set(name, value);
@@ -141,6 +142,13 @@ std::vector<TuneSearch::Step> TuneSearch::steps_from(const KnobValues& knobs) co
   return steps;
 }
 
+// Cheaper than a setting that keeps the bounds, but beyond one.
+bool TuneSearch::promising(size_t a, size_t b) const {
+  const Outcome &cheap = tried_[a].outcome, &good = tried_[b].outcome;
+  return violation(good, bounds_) == 0.0 && violation(cheap, bounds_) > 0.0 && cheap.failure.empty() &&
+         cheap.cost(bounds_.minimise) < good.cost(bounds_.minimise);
+}
+
 bool TuneSearch::exchange(size_t& at) {
   const KnobValues from = tried_[at].knobs;
   const Outcome here = tried_[at].outcome;
@@ -148,6 +156,7 @@ bool TuneSearch::exchange(size_t& at) {
     KnobValues knobs;
     std::string why;
     Outcome predicted;
+    Step repair;  // of the two steps the one that leaves the smaller error
   };
   std::vector<Pair> pairs;
   const std::vector<Step> steps = steps_from(from);
@@ -170,13 +179,22 @@ bool TuneSearch::exchange(size_t& at) {
       pairs.push_back({to,
                        change_text(from, steps[i].knob->name, steps[i].value) + ", " +
                            change_text(from, steps[j].knob->name, steps[j].value),
-                       both});
+                       both, a->error <= b->error ? steps[i] : steps[j]});
     }
   std::stable_sort(pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) {
     return better(a.predicted, b.predicted, bounds_, 0.0);
   });
   for (size_t i = 0; i < std::min(pairs.size(), exchanges_a_round); ++i) {
-    const size_t next = measure(pairs[i].knobs, pairs[i].why);
+    size_t next = measure(pairs[i].knobs, pairs[i].why);
+    for (int more = 0; more < most_repairs && !is_better(next, at) && promising(next, at); ++more) {
+      const KnobValues cheap = tried_[next].knobs;
+      const Step& repair = pairs[i].repair;
+      const auto value = next_value(*repair.knob, cheap.all().at(repair.knob->name), repair.direction);
+      if (!value) break;
+      const KnobValues to = with(cheap, repair.knob->name, *value);
+      if (allowed_ && !allowed_(from, to)) break;
+      next = measure(to, change_text(cheap, repair.knob->name, *value));
+    }
     if (!is_better(next, at)) continue;
     at = next;
     return true;

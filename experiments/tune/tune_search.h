@@ -55,6 +55,7 @@ class TuneSearch {
   };
   size_t measure(const KnobValues& knobs, const std::string& why);
   bool is_better(size_t a, size_t b) const;
+  bool promising(size_t a, size_t b) const;
   std::vector<Step> steps_from(const KnobValues& knobs) const;
   size_t descend(size_t at);
   bool sweep(size_t& at);

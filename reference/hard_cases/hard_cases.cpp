@@ -87,7 +87,7 @@ Figures closed_box() {
   const glm::vec3 eye(0.3f, 0.2f, 0.4f), wall(-1.0f, 0.1f, -0.8f);
   const double rho = 0.95f;
   const auto series = [&](int last) { return rho * (1.0 - std::pow(rho, last + 1)) / (1.0 - rho); };
-  const Reading all = meter.read(eye, wall, {0, 200, true}, quiet_effort(64));
+  const Reading all = meter.read(eye, wall, {0, 200, true}, quiet_effort(128));
   const Reading four = meter.read(eye, wall, {0, 4, true}, quiet_effort(64));
   Figures figures = reads(all, series(200), 1e-5, 0.02);
   add_worst(figures, reads(four, series(4), 1e-5, 0.02));

@@ -12,7 +12,7 @@ hard::Cases hard_cases() {
   all.push_back(hard::scale_case(
       make_clustered_gather,
       {{"view_clusters", "200"}, {"directions", "100"}, {"gather_clusters", "16"}, {"device", "cpu"}}, 0.02,
-      "clusters are chosen by comparisons of floats, a few of which fall otherwise"));
+      "stated: clusters are chosen by comparisons of floats, a few of which fall otherwise"));
   return all;
 }
 

@@ -42,7 +42,7 @@ class NoiseBench {
   std::map<std::string, Image> truth_;  // by light
 };
 
-// `many`, `few`: the noise with 480 clusters at most this share of that with 30.
+// of_paper, without: bounds of the noise with 120 clusters, the paper's number, and without clustering.
 Figures noise_of(Light hard_light, double of_paper, double without) {
   NoiseBench bench;
   const Light wide = tiny::omni({0.2f, 0.4f, 0.3f});
@@ -50,16 +50,18 @@ Figures noise_of(Light hard_light, double of_paper, double without) {
   const double wide_paper = bench.error("120", wide), at_30 = bench.error("30", hard_light),
                at_120 = bench.error("120", hard_light), at_480 = bench.error("480", hard_light),
                at_all = bench.error("0", hard_light);
-  return {at_most("noise with 120 gather clusters, a wide light beside it", wide_paper, 0.1,
-                  "the paper's setting does what it is made for"),
-          at_most("noise with 30 gather clusters", at_30, 4.0 * of_paper, "stated, twice what was measured"),
-          at_most("noise with 120 gather clusters", at_120, of_paper, "stated, twice what was measured"),
-          at_most("noise with 480 gather clusters", at_480, 0.5 * of_paper,
-                  "a quarter of the area a cluster: at most half of the noise"),
-          at_most("noise without clustering, 2000 directions", at_all, without,
-                  "stated: few of 2,000 directions meet the bright spot"),
-          at_least("noise of 120 clusters over that of the wide light", at_120 / wide_paper, 3.0,
-                   "the paper's stated weakness, reproduced")};
+  return {
+      at_most("noise with 120 gather clusters, a wide light beside it", wide_paper, 0.1,
+              "the paper's setting does what it is made for"),
+      at_most("noise with 30 gather clusters", at_30, 2.0 * of_paper,
+              "stated: about twice what was measured"),
+      at_most("noise with 120 gather clusters", at_120, of_paper, "stated: about twice what was measured"),
+      at_most("noise of 480 clusters over that of 120", at_480 / at_120, 0.8,
+              "more clusters must bring it down; a quarter of the area a cluster would halve it at best"),
+      at_most("noise without clustering, 2000 directions", at_all, without,
+              "stated: few of 2,000 directions meet the bright spot"),
+      at_least("noise of 120 clusters over that of the wide light", at_120 / wide_paper, 3.0,
+               "the paper's stated weakness, reproduced")};
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ Cases light_cases() {
            "A cluster's one lit or unlit sample stands for all of its members: noise, the paper's stated "
            "weakness.",
            [] {
-             return noise_of(tiny::spot({0.2f, 0.4f, 0.3f}, {0.2f, -1.0f, 0.1f}, 2.0f, 3.0f), 1.0, 0.2);
+             return noise_of(tiny::spot({0.2f, 0.4f, 0.3f}, {0.2f, -1.0f, 0.1f}, 2.0f, 3.0f), 2.0, 0.5);
            }},
           {"a light a hundredth of the diagonal from the floor",
            "The same, where 1/r^2 puts most of the light on a spot of that size.", [] {

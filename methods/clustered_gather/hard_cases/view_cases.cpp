@@ -36,7 +36,7 @@ Figures view_that_sees_nothing() {
 }
 
 struct LinkCheck {
-  double sum_error = 0.0, least = 0.0, leaks = 0.0, thin_pixels = 0.0;
+  double sum_error = 0.0, least = 0.0, leaks = 0.0;
 };
 
 // Weights of every pixel, and links to clusters that face elsewhere beside one that doesn't.
@@ -53,7 +53,6 @@ LinkCheck check_links(const DeepFrameBuffer& buffer, const ViewClusters& cluster
     }
     check.sum_error = std::max(check.sum_error, std::abs(sum - 1.0));
     check.leaks += same > 0.0 && astray > 0.0;
-    check.thin_pixels += same == 0.0;
   }
   return check;
 }
@@ -77,11 +76,11 @@ Figures thin_geometry() {
           at_least("least weight", links.least, 0.0, "light is not subtracted"),
           at_most("pixels that take light around an edge", links.leaks, 0.0,
                   "clusters that face elsewhere are left out where there are others"),
-          at_least("pixels that no near cluster faces alike", links.thin_pixels, 1.0,
+          at_least("share of pixels on a geometric edge", bench.buffer.edge_share(), 0.1,
                    "else the geometry is not thin"),
           at_most("indirect light, 300 view clusters against every pixel",
-                  relative_difference(few.indirect, all.indirect), 0.35,
-                  "stated: five pixels a cluster on tubes narrower than one; nothing better is promised")};
+                  relative_difference(few.indirect, all.indirect), 0.3,
+                  "stated, about twice what was measured: five pixels a cluster on tubes narrower than one")};
 }
 
 }  // namespace
