@@ -50,12 +50,12 @@ TEST(EnvironmentMethod, EveryDeviceAgreesWithTheDoublePrecisionOracle) {
   for (const bool glossy : {false, true}) {
     TransferBench bench(room(tiny::uneven_map(32, 16, 0.4f), glossy));
     const Relit oracle = relit(bench, {{"device", "oracle"}});
-    EXPECT_EQ(bench.prepare_log.counters().count("cache_hits"), 0u);
+    EXPECT_EQ(bench.precompute_log.counters().count("cache_hits"), 0u);
     for (const auto& [device, product] : {std::pair{"gpu", "tiles"}, {"gpu", "rows"}, {"cpu", "tiles"}}) {
       StageLog log;
       const Relit found =
           relit(bench, {{"device", device}, {"product", product}, {"weights", "float32"}}, log);
-      EXPECT_EQ(bench.prepare_log.counters().at("cache_hits"), 1);
+      EXPECT_EQ(bench.precompute_log.counters().at("cache_hits"), 1);
       EXPECT_LT(relative_difference(found.direct, oracle.direct), 1.2e-5) << device << " " << product;
       EXPECT_LT(relative_difference(found.indirect, oracle.indirect), 1.2e-5) << device << " " << product;
       EXPECT_EQ(log.stages().front().first, "environment");
@@ -81,14 +81,14 @@ TEST(EnvironmentMethod, CostsNothingWhereThereIsNone) {
   dark.parts = &dark_clouds;
   StageLog log;
   const Relit automatic = relit(dark, {{"device", "gpu"}}, log);
-  EXPECT_EQ(mentions_of_environment(dark.prepare_log) + mentions_of_environment(log), 0);
+  EXPECT_EQ(mentions_of_environment(dark.precompute_log) + mentions_of_environment(log), 0);
   StageLog off_log;
   const Relit off = relit(dark, {{"device", "gpu"}, {"environment", "off"}}, off_log);
   EXPECT_EQ(relative_difference(automatic.total, off.total), 0.0);
   // Off although there is one: the same again, and the light paths say so.
   TransferBench lit(room(constant(glm::vec3(1.0f))));  // its GPU context is the current one from here on
   const Relit left_out = relit(lit, {{"device", "gpu"}, {"environment", "off"}}, log);
-  EXPECT_EQ(mentions_of_environment(lit.prepare_log) + mentions_of_environment(log), 0);
+  EXPECT_EQ(mentions_of_environment(lit.precompute_log) + mentions_of_environment(log), 0);
   EXPECT_EQ(relative_difference(left_out.total, off.total), 0.0);
   KnobValues knobs(lit.method->knobs());
   EXPECT_TRUE(lit.method->light_paths(knobs).environment);
@@ -97,7 +97,7 @@ TEST(EnvironmentMethod, CostsNothingWhereThereIsNone) {
   EXPECT_FALSE(lit.method->light_paths(knobs).environment);
   // On although there is none: prepared for, and then used by a lighting that brings one.
   const Relit on = relit(dark, {{"device", "cpu"}, {"environment", "on"}}, log);
-  EXPECT_GT(dark.prepare_log.counters().at("environment_rays"), 0);
+  EXPECT_GT(dark.precompute_log.counters().at("environment_rays"), 0);
   EXPECT_LT(relative_difference(on.total, off.total), 0.02) << "the CPU traces the same shadows";
 }
 
