@@ -31,7 +31,8 @@ KnobTable knob_table() {
        {},
        "indirect",
        "Time of one relight, direct light included, in whole samples a pixel (at least one); used if samples "
-       "is 0."},
+       "is 0.",
+       tuned_by_factor(2, 16, 60000)},
       {"bounces_max",
        integer,
        relight,
@@ -49,7 +50,8 @@ KnobTable knob_table() {
        0,
        {"next_event", "light_vertex"},
        "indirect",
-       "Plain next-event estimation, or its combination with one vertex of a path from a light."},
+       "Plain next-event estimation, or its combination with one vertex of a path from a light.",
+       tuned_by_choice({"next_event", "light_vertex"})},
       {"glossy_at_eye",
        boolean,
        relight,
@@ -128,6 +130,7 @@ class PathTracingPrepared : public Prepared {
 
   Relit relight(const LightingState& lighting, StageLog& log) override {
     Progress quiet(true);
+    quiet.set_limit(log.limit());
     PathTracerResult result = path_trace(tracer_, buffer_, lighting, settings_, quiet, log);
     log.count("samples_per_pixel", result.samples_per_pixel);
     Relit relit;
@@ -152,6 +155,7 @@ class PathTracing : public Method {
   std::string paper() const override { return "James T. Kajiya: The Rendering Equation, SIGGRAPH 1986"; }
   KnobTable knobs() const override { return knob_table(); }
   LightPaths light_paths(const KnobValues& knobs) const override { return paths_of(knobs); }
+  bool repeatable(const KnobValues& knobs) const override { return knobs.integer("samples") > 0; }
   std::vector<Effect> effects(const KnobValues&) const override {
     return {bounces_effect("bounces_max", 8),
             boolean("glossy_at_eye", "Indirect light in glossy reflections at the visible surface."),

@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <unistd.h>
 
@@ -44,6 +46,16 @@ void write_atomically(const std::filesystem::path& file,
     std::filesystem::remove(temporary, ignored);
     throw;
   }
+}
+
+void remove_leftovers(const std::filesystem::path& folder) {
+  static const std::regex temporary(R"(.+\.\d+-\d+\.tmp(\.[^.]*)?)");
+  std::error_code error;
+  std::vector<std::filesystem::path> found;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (it->is_regular_file(error) && std::regex_match(it->path().filename().string(), temporary))
+      found.push_back(it->path());
+  for (const std::filesystem::path& file : found) std::filesystem::remove(file, error);
 }
 
 void write_text_atomically(const std::filesystem::path& file, std::string_view bytes) {

@@ -16,4 +16,8 @@ void write_atomically(const std::filesystem::path& file,
 // The same for given bytes, text or not. Throws Error naming the file, e.g. on a full disk.
 void write_text_atomically(const std::filesystem::path& file, std::string_view bytes);
 
+// Removes what killed processes left under temporary names in `folder` (not in folders below it). Only for
+// folders that no other process writes to.
+void remove_leftovers(const std::filesystem::path& folder);
+
 }  // namespace relight

@@ -88,6 +88,9 @@ class Method {
   // Besides "paper", the defaults.
   virtual std::vector<KnobPreset> presets() const { return {}; }
   virtual LightPaths light_paths(const KnobValues& knobs) const = 0;
+  // Do the same settings give the same picture and counters, whatever the machine's speed? False for a budget
+  // of time.
+  virtual bool repeatable(const KnobValues&) const { return true; }
   // The approximations that these settings consist of; see error_stages.h.
   virtual ErrorStages error_stages(const KnobValues&) const { return {}; }
   // What of a scene it can leave out; see effects.h.

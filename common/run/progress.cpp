@@ -51,10 +51,12 @@ void Progress::start(const std::string& what, int64_t total) {
   total_ = total;
   done_ = 0;
   start_ = last_print_ = std::chrono::steady_clock::now();
+  if (limit_) limit_->check(what_);
 }
 
 void Progress::advance(int64_t done) {
   done_ += done;
+  if (limit_) limit_->check(what_);
   if (quiet_) return;
   // Workers never wait for each other's printing: whoever finds the lock taken goes on.
   const std::unique_lock lock(mutex_, std::try_to_lock);

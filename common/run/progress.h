@@ -5,7 +5,10 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
+
+#include "common/run/time_limit.h"
 
 namespace relight {
 
@@ -19,9 +22,13 @@ class Progress {
  public:
   // `quiet` prints nothing. On a terminal the line is rewritten twice a second; otherwise a line every 10 s.
   explicit Progress(bool quiet = false) : quiet_(quiet) {}
+  // start and advance throw TimeLimitReached once a limit that was set has passed.
   void start(const std::string& what, int64_t total);
   void advance(int64_t done = 1);
   void finish();
+  // Not while work is reported.
+  void set_limit(std::optional<TimeLimit> limit) { limit_ = std::move(limit); }
+  const std::optional<TimeLimit>& limit() const { return limit_; }
 
  private:
   void print(bool last);
@@ -31,6 +38,7 @@ class Progress {
   std::atomic<int64_t> done_{0};
   std::chrono::steady_clock::time_point start_, last_print_;
   std::mutex mutex_;
+  std::optional<TimeLimit> limit_;
 };
 
 }  // namespace relight

@@ -14,6 +14,7 @@ struct Provenance {
   int threads = 0;                      // threads that parallel loops may use (ThreadLimit)
   std::string gl_renderer, gl_version;  // GL_RENDERER and GL_VERSION
   std::string date;                     // UTC, ISO 8601: "2026-01-31T23:59:59Z"
+  bool shared_machine = false;          // other runs were at work at the same time: times say little
 };
 
 // Fills everything but the GL strings, which the caller got from its context (empty: no context).

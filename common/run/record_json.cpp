@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/image/metric_fields.h"
 #include "common/run/error.h"
 #include "common/run/run_record.h"
 
@@ -27,17 +28,6 @@ double number_from(const Json& json) {
   if (word == "-inf") return -std::numeric_limits<double>::infinity();
   fail("'{}' is not a number", word);
 }
-
-// One list for writing and reading: a metric can't be forgotten on one side.
-constexpr std::pair<const char*, double MetricSet::*> metric_fields[] = {
-    {"relative", &MetricSet::relative},
-    {"relative_edges_out", &MetricSet::relative_edges_out},
-    {"relative_hdr", &MetricSet::relative_hdr},
-    {"rmse", &MetricSet::rmse},
-    {"relmse", &MetricSet::relmse},
-    {"bias", &MetricSet::bias},
-    {"ssim", &MetricSet::ssim},
-    {"max", &MetricSet::max}};
 
 constexpr std::pair<const char*, std::string Provenance::*> provenance_fields[] = {
     {"commit", &Provenance::commit},
@@ -122,6 +112,7 @@ Json provenance_to_json(const Provenance& provenance) {
   for (const auto& [name, field] : provenance_fields) json[name] = provenance.*field;
   json["dirty"] = provenance.dirty;
   json["threads"] = provenance.threads;
+  if (provenance.shared_machine) json["shared_machine"] = true;
   return json;
 }
 
@@ -130,6 +121,7 @@ Provenance provenance_from_json(const Json& json) {
   for (const auto& [name, field] : provenance_fields) provenance.*field = json.at(name).get<std::string>();
   provenance.dirty = json.at("dirty").get<bool>();
   provenance.threads = json.at("threads").get<int>();
+  provenance.shared_machine = json.value("shared_machine", false);
   return provenance;
 }
 
@@ -142,6 +134,7 @@ RunRecord record_from(const Json& json) {
   record.preset = json.value("preset", "");
   json.at("knobs").get_to(record.knobs);
   json.at("seed").get_to(record.seed);
+  record.repeatable = json.value("repeatable", true);
   json.at("light_paths").get_to(record.light_paths);
   json.at("reference_paths").get_to(record.reference_paths);
   json.at("not_simulated").get_to(record.not_simulated);
@@ -188,6 +181,7 @@ std::string record_to_json(const RunRecord& record) {
                {"height", record.height},
                {"triangles", record.triangles},
                {"scene_hash", record.scene_hash}};
+  if (!record.repeatable) json["repeatable"] = false;
   if (record.effect_plan) json["effect_plan"] = Json::parse(effect_plan_to_json(*record.effect_plan));
   if (record.errors) json["errors"] = errors_to_json(*record.errors);
   if (record.errors_indirect) json["errors_indirect"] = errors_to_json(*record.errors_indirect);

@@ -40,6 +40,7 @@ struct RunRecord {
   std::string preset;                        // where the knobs started from; older records: empty
   std::map<std::string, std::string> knobs;  // fully resolved
   uint64_t seed = 0;
+  bool repeatable = true;                  // Method::repeatable() of these knobs
   std::string light_paths;                 // LightPaths::to_string() of the method
   std::string reference_paths;             // and of the reference that it was compared with
   std::vector<std::string> not_simulated;  // what the scene has and the method leaves out, in words

@@ -1,5 +1,6 @@
 // The relight program: parses, dispatches to one subcommand, and turns errors into exit codes.
 // 0 = success, 1 = something failed (a broken file, a method that failed), 2 = a mistake on the command line.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -56,7 +57,11 @@ int run(int argc, char** argv) {
   relight::cli::add_references_command(app, action);
   relight::cli::add_compare_command(app, action);
   relight::cli::add_explain_error_command(app, action);
+  relight::cli::add_hard_cases_command(app, action);
   relight::cli::add_run_command(app, action);
+  relight::cli::add_regress_command(app, action);
+  relight::cli::add_publish_command(app, action);
+  relight::cli::add_tune_command(app, action);
   relight::cli::add_report_command(app, action);
   relight::cli::add_cache_command(app, action);
   relight::cli::add_bench_command(app, action);
@@ -73,6 +78,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A limit on file sizes is to be an error of the write, which names the file, not a silent end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const relight::UsageError& error) {

@@ -1,6 +1,7 @@
 #include "experiments/compare/compare.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "common/run/error.h"
 #include "experiments/compare/effect_run.h"
@@ -8,6 +9,7 @@
 #include "experiments/compare/method_record.h"
 #include "experiments/compare/run_method.h"
 #include "experiments/report/report.h"
+#include "experiments/session/output_folder.h"
 
 namespace relight {
 
@@ -27,7 +29,7 @@ const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog&
   // traced and kept once.
   paths.glossy_at_eye = paths.glossy_at_eye && sees_gloss(session_.buffer());
   if (!session_.has_environment()) paths = paths.without_environment();
-  for (const ReferenceImages& made : made_) {
+  for (const ReferenceImages& made : references_) {
     if (same_paths(made.settings.paths, paths)) return made;
   }
   PathTracerSettings settings;
@@ -35,43 +37,79 @@ const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog&
   settings.samples_per_pixel = plan_.reference_samples;
   settings.estimator = plan_.reference_estimator;
   settings.seed = plan_.session.seed;
-  made_.push_back(reference_images(session_, settings, log));
-  return made_.back();
+  references_.push_back(reference_images(session_, settings, log));
+  return references_.back();
 }
 
-RunRecord Comparison::run(const MethodPlan& asked, const std::filesystem::path& folder) {
+StartedRun Comparison::start(const MethodPlan& asked) {
+  StartedRun started{asked, {}, nullptr};
   MethodPlan method = asked;
   std::optional<EffectPlan> effects;
   std::string failure;
+  const double limit = plan_.time_limit_s;
+  const auto start = std::chrono::steady_clock::now();
   try {
+    if (limit > 0.0) session_.progress().set_limit(TimeLimit(limit, limit));
     if (plan_.effects) effects = plan_and_apply(*plan_.effects, method, session_);
   } catch (const Error& error) {
     failure = fmt::format("effect plan: {}", error.what());
   }
-  RunRecord record = describe_run(plan_, method, session_);
-  record.effect_plan = std::move(effects);
+  session_.progress().set_limit(std::nullopt);
+  const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  started.record = describe_run(plan_, method, session_);
+  started.record.effect_plan = std::move(effects);
   if (!failure.empty()) {
-    record.failed_stages.push_back(failure);
-    return record;
+    started.record.failed_stages.push_back(failure);
+    return started;
   }
   // Times beside those of everything on are compared without what earlier runs left in the cache.
-  ArtefactCache unused(session_.cache().folder(), false);
   const bool timed = plan_.effects && plan_.effects->check;
-  const MethodRun run =
-      run_method(method, session_, {session_.buffer(), timed ? unused : session_.cache()}, plan_.repeats);
+  MethodSite site{session_.buffer(), timed ? no_cache_ : session_.cache()};
+  if (limit > 0.0) site.time_limit_s = std::max(limit - used, 1e-9), site.whole_limit_s = limit;
+  started.run = std::make_unique<PreparedRun>(method, session_, site, plan_.repeats);
+  return started;
+}
+
+RunRecord Comparison::finish(StartedRun started, const std::filesystem::path& folder) {
+  RunRecord& record = started.record;
+  if (!started.run) return std::move(record);
+  const MethodPlan& method = started.run->plan();
+  const MethodRun run = started.run->finish();
   add_costs(record, run, session_);
-  if (!run.failure.empty()) return record;
+  if (!run.failure.empty()) return std::move(record);
   StageLog reference_log;
   const ReferenceImages& made = reference(method, reference_log);
   add_errors(record, run.relit, made, session_);
   record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
                          reference_log.warnings().end());
-  if (record.effect_plan) check_effects_of(asked, run, record);
-  write_run_images(folder, record.method, run.relit, made.result,
-                   {{"relight.scene", record.scene},
-                    {"relight.lighting", record.lighting},
-                    {"relight.method", record.method},
-                    {"relight.command", record.command}});
+  if (record.effect_plan) check_effects_of(started.asked, run, record);
+  try {
+    write_run_images(folder, record.method, run.relit, made.result,
+                     {{"relight.scene", record.scene},
+                      {"relight.lighting", record.lighting},
+                      {"relight.method", record.method},
+                      {"relight.command", record.command}});
+  } catch (const Error& error) {
+    throw OutputError(error.what());
+  }
+  return std::move(record);
+}
+
+RunRecord Comparison::run(const MethodPlan& method, const std::filesystem::path& folder) {
+  StartedRun started = start(method);
+  if (started.run) time_in_rounds({started.run.get()});
+  return finish(std::move(started), folder);
+}
+
+RunRecord Comparison::measure(const MethodPlan& method, ArtefactCache& cache) {
+  RunRecord record = describe_run(plan_, method, session_);
+  const MethodRun run = run_method(method, session_, {session_.buffer(), cache}, plan_.repeats);
+  add_costs(record, run, session_);
+  if (!run.failure.empty()) return record;
+  StageLog reference_log;
+  add_errors(record, run.relit, reference(method, reference_log), session_);
+  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
+                         reference_log.warnings().end());
   return record;
 }
 
@@ -87,7 +125,8 @@ std::vector<RunRecord> compare(const ComparePlan& plan) {
   Session session(plan.session, Session::Gpu::needed);
   const std::filesystem::path records_file = plan.out / "records.jsonl";
   std::filesystem::remove(records_file);
-  Comparison comparison(plan, session);
+  ReferenceStore references;
+  Comparison comparison(plan, session, references);
   std::vector<RunRecord> records;
   for (const MethodPlan& method : plan.methods) {
     records.push_back(comparison.run(method, plan.out));

@@ -39,6 +39,7 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   record.preset = method.preset;
   record.knobs = method.knobs.all();
   record.seed = plan.session.seed;
+  record.repeatable = method.method->repeatable(method.knobs);
   const bool environment = session.has_environment();
   const LightPaths of_reference = reference_paths(plan, method);
   record.light_paths = (environment ? method.paths : method.paths.without_environment()).to_string();
@@ -51,6 +52,7 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   record.scene_hash = fmt::format("{:016x}", scene.content_hash);
   record.command = command_line(plan, session.lighting_name(), {method});
   record.provenance = collect_provenance(session.gpu()->renderer(), session.gpu()->version());
+  record.provenance.shared_machine = plan.session.shared_machine;
   return record;
 }
 

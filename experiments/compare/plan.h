@@ -57,6 +57,7 @@ struct ComparePlan {
   Estimator reference_estimator;
   int repeats;
   std::optional<EffectPlanning> effects = std::nullopt;  // nothing: knobs decide
+  double time_limit_s = 0.0;  // > 0: of a method's own work (effect plan, precompute, relights)
 };
 
 // Defaults, then what the preset says where the method has it, then those settings that name the method.

@@ -46,14 +46,14 @@ std::string notes(const RunRecord& record) {
 }  // namespace
 
 std::string summary_text(const std::vector<RunRecord>& records) {
-  TextTable table({"method", "relative %", "edges out %", "indirect %", "noise floor %", "precompute s",
-                   "relight ms", "MB"});
+  TextTable table({"method", "relative %", "edges out %", "indirect %", "noise floor %", "bias %",
+                   "precompute s", "relight ms", "MB"});
   for (const RunRecord& r : records) {
     const bool ran = r.relight_ms.repeats > 0;
     table.add_row({r.method + (r.failed_stages.empty() ? "" : " (FAILED)"),
                    percent(r.errors, &MetricSet::relative), percent(r.errors, &MetricSet::relative_edges_out),
                    percent(r.errors_indirect, &MetricSet::relative), floor_percent(r.errors),
-                   ran ? fmt::format("{:.2f}", r.precompute_s) : "-",
+                   percent(r.errors, &MetricSet::bias), ran ? fmt::format("{:.2f}", r.precompute_s) : "-",
                    ran ? fmt::format("{:.1f}", r.relight_ms.median) : "-",
                    fmt::format("{:.1f}", prepared_megabytes(r))});
   }

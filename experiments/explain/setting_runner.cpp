@@ -24,14 +24,6 @@ void require_finite(const Image& image, const std::string& label, const char* wh
          which, bad - image.pixels.begin());
 }
 
-// Keeping data for another setting is this program's cost, not the method's.
-double own_precompute_s(const MethodRun& run) {
-  double seconds = run.precompute_s;
-  for (const auto& [stage, s] : run.precompute.stages())
-    if (stage == "cache_load" || stage == "cache_store") seconds -= s;
-  return seconds;
-}
-
 }  // namespace
 
 SettingRunner::SettingRunner(Session& session, const PixelSubset& subset, int repeats,
@@ -67,7 +59,7 @@ SettingResult SettingRunner::run(const std::string& label, const MethodPlan& met
   keep_warnings(run.relight);
   // Later settings with this key may have found the data in memory.
   const double precompute_s =
-      precompute_s_.emplace(method.knobs.precompute_key(), own_precompute_s(run)).first->second;
+      precompute_s_.emplace(method.knobs.precompute_key(), run.precompute_s).first->second;
   const RelightTime relight_ms = summarise_times(run.relight_ms);
   records_.push_back(
       {label, method.knobs.all(), precompute_s, relight_ms, run.precompute.stages(), run.relight.stages()});

@@ -31,6 +31,7 @@ struct Experiment {
   int reference_samples = 128;
   int repeats = 0;
   std::vector<std::filesystem::path> paper_numbers;  // files of a paper's figures, to stand beside ours
+  double time_limit_s = 0.0;  // > 0: of a run's own work, see ComparePlan
   std::vector<RunGroup> groups;
 };
 
@@ -49,7 +50,8 @@ struct PlannedRun {
 std::string describe(const PlannedRun& run);
 
 struct RunList {
-  std::vector<PlannedRun> runs;       // runs on one scene and lighting follow each other
+  std::vector<PlannedRun> runs;  // those on one scene and lighting follow each other, and of them those with
+                                 // the same precompute knobs
   std::vector<std::string> left_out;  // one sentence each
 };
 

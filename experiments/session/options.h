@@ -17,6 +17,7 @@ struct SessionOptions {
   std::string cache_folder;  // empty: ArtefactCache::default_folder()
   bool quiet = false;        // no progress on standard error
   double time = 0.0;         // of an animated lighting [s]
+  bool shared_machine = false;  // other runs are at work at the same time: goes into the records
 };
 
 }  // namespace relight

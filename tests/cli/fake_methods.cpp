@@ -1,7 +1,10 @@
 #include "fake_methods.h"
 
+#include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <thread>
 
 #include "common/run/error.h"
 #include "reference/path_tracer.h"
@@ -96,6 +99,45 @@ std::unique_ptr<Method> make_nan_method() {
 std::unique_ptr<Method> make_wrong_size_method() {
   return std::make_unique<FakeMethod>(
       "wrong_size", [](const auto& context, const auto&, StageLog&) { return black(context, -1); });
+}
+
+std::unique_ptr<Method> make_listening_method(std::shared_ptr<std::vector<int64_t>> sizes) {
+  return std::make_unique<FakeMethod>("listening", [sizes](const auto& context, const auto&, StageLog&) {
+    sizes->push_back(context.knobs.integer("size"));
+    return black(context);
+  });
+}
+
+std::unique_ptr<Method> make_slow_method(bool reports_progress) {
+  return std::make_unique<FakeMethod>("slow", [=](const auto& context, const auto&, StageLog& log) {
+    if (reports_progress) context.progress.start("waiting", 2000);
+    for (int step = 0; step < 2000; ++step) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (reports_progress)
+        context.progress.advance();
+      else
+        StageTimer(log, "waiting");
+    }
+    return black(context);
+  });
+}
+
+std::unique_ptr<Method> make_version(Version version) {
+  // Traced once: a relight takes as long as it says, not as tracing takes on a busy machine.
+  const auto kept = std::make_shared<std::optional<Relit>>();
+  return std::make_unique<FakeMethod>(
+      "planted", [=](const auto& context, const auto& lighting, StageLog& log) {
+        StageLog unused;
+        if (!*kept)
+          *kept = traced(context, lighting, unused, version == Version::three_percent_dark ? 0.97f : 1.0f);
+        const StageTimer timer(log, "pretend");
+        std::this_thread::sleep_for(std::chrono::milliseconds(version == Version::ten_times_slower ? 30 : 3));
+        log.count("pixels", static_cast<int64_t>((*kept)->total.pixels.size()));
+        Relit relit = **kept;
+        if (version == Version::leaks_nan)
+          relit.indirect.at(3, 2).y = relit.total.at(3, 2).y = std::numeric_limits<float>::quiet_NaN();
+        return relit;
+      });
 }
 
 }  // namespace relight::test

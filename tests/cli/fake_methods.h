@@ -17,5 +17,18 @@ std::unique_ptr<Method> make_nan_method();
 std::unique_ptr<Method> make_wrong_size_method();
 // The exact image times 1.1 in indirect and direct light: a relative error of 0.1.
 std::unique_ptr<Method> make_ten_percent_method();
+// Black; adds its knob "size" to `sizes` with every relight.
+std::unique_ptr<Method> make_listening_method(std::shared_ptr<std::vector<int64_t>> sizes);
+// Black, after ten seconds in steps of 5 ms; each reports progress, or is a stage of its own.
+std::unique_ptr<Method> make_slow_method(bool reports_progress);
+
+// One method in a right and in wrong versions, all of one name, as builds of a program would have them.
+enum class Version {
+  right,  // the exact image; a relight takes 3 ms
+  three_percent_dark,
+  leaks_nan,        // one NaN in the indirect and total image at pixel (3, 2)
+  ten_times_slower  // a relight takes 30 ms
+};
+std::unique_ptr<Method> make_version(Version version);  // named "planted"
 
 }  // namespace relight::test

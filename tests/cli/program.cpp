@@ -1,5 +1,6 @@
 #include "program.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -32,6 +33,21 @@ ProgramResult run_program(const std::string& arguments, const std::string& prefi
   result.out = read_text(folder / "out");
   result.err = read_text(folder / "err");
   return result;
+}
+
+pid_t start_program(std::vector<std::string> words) {
+  words.insert(words.begin(), RELIGHT_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    // The messages of a program that dies are not this test's output.
+    if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _exit(126);
+    execv(RELIGHT_PROGRAM, pointers.data());
+    _exit(127);
+  }
+  return child;
 }
 
 std::string read_text(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
 #include <nlohmann/json.hpp>
 
 namespace relight::test {
@@ -16,6 +17,9 @@ struct ProgramResult {
 
 // `arguments` as a shell would read them; `prefix` goes before the program ("ulimit -f 8; ").
 ProgramResult run_program(const std::string& arguments, const std::string& prefix = "");
+
+// Starts it with these words as its arguments and returns its process; its messages go nowhere.
+pid_t start_program(std::vector<std::string> words);
 
 // An empty folder that is removed at the end.
 class TemporaryFolder {

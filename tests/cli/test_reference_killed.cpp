@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "common/image/exr.h"
 
@@ -48,27 +47,12 @@ std::optional<ino_t> number_of(const fs::path& file) {
   return stat(file.c_str(), &info) == 0 ? std::optional(info.st_ino) : std::nullopt;
 }
 
-pid_t start(std::vector<std::string> words) {
-  words.insert(words.begin(), RELIGHT_PROGRAM);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
-    // The messages of a program that dies are not this test's output.
-    if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _exit(126);
-    execv(RELIGHT_PROGRAM, pointers.data());
-    _exit(127);
-  }
-  return child;
-}
-
 // Starts the run and kills it as soon as `checkpoints` new checkpoints have been written. False if it ended
 // by itself.
 bool start_and_kill(const fs::path& out, int checkpoints) {
   const fs::path state = out / "state.relight";
   std::optional<ino_t> before = number_of(state);
-  const pid_t child = start(arguments(out));
+  const pid_t child = start_program(arguments(out));
   int status = 0;
   const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (waitpid(child, &status, WNOHANG) == 0) {

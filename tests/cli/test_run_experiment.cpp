@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/run/error.h"
+#include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/usage_error.h"
 #include "fake_methods.h"

@@ -43,7 +43,8 @@ RunRecord example_record() {
   record.reference = ReferenceCost{256, 8, 60.5, 99, "light_vertex", true};
   record.warnings = {"one"}, record.failed_stages = {"shade: 2 NaN"};
   record.provenance = {
-      "commit", true, "compiler", "Release", "cpu", 2, "llvmpipe", "4.5", "2026-01-31T23:59:59Z"};
+      "commit", true, "compiler", "Release", "cpu", 2, "llvmpipe", "4.5", "2026-01-31T23:59:59Z", true};
+  record.repeatable = false;
   return record;
 }
 
@@ -73,6 +74,8 @@ TEST(RunRecord, SurvivesARoundTrip) {
   EXPECT_EQ(read.width, 320);
   EXPECT_EQ(read.height, 240);
   EXPECT_EQ(read.triangles, 36);
+  EXPECT_FALSE(read.repeatable);
+  EXPECT_TRUE(read.provenance.shared_machine);
   EXPECT_EQ(read.scene_hash, "abc123");
   expect_equal(read.errors.value().value, record.errors->value);
   expect_equal(read.errors->noise_floor, record.errors->noise_floor);
