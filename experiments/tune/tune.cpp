@@ -128,18 +128,18 @@ Verification verify(const TunePlan& plan, const MethodPlan& method, const std::s
 
 }  // namespace
 
-Verdict error_verdict(const Outcome& outcome, double bound) {
-  if (!outcome.failure.empty() || !(outcome.error - outcome.half_width <= bound)) return Verdict::not_met;
-  return outcome.error + outcome.half_width <= bound ? Verdict::met : Verdict::open;
+BoundVerdict error_verdict(const Outcome& outcome, double bound) {
+  if (!outcome.failure.empty() || !(outcome.error - outcome.half_width <= bound)) return BoundVerdict::not_met;
+  return outcome.error + outcome.half_width <= bound ? BoundVerdict::met : BoundVerdict::open;
 }
 
-std::string to_string(Verdict verdict) {
-  return verdict == Verdict::met ? "met" : verdict == Verdict::open ? "open" : "not met";
+std::string to_string(BoundVerdict verdict) {
+  return verdict == BoundVerdict::met ? "met" : verdict == BoundVerdict::open ? "open" : "not met";
 }
 
 int64_t TuneResult::met() const {
   return std::count_if(verified.begin(), verified.end(),
-                       [](const Verification& v) { return v.verdict == Verdict::met; });
+                       [](const Verification& v) { return v.verdict == BoundVerdict::met; });
 }
 
 TuneResult tune(const TunePlan& plan) {

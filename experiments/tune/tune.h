@@ -12,14 +12,14 @@
 namespace relight {
 
 // Met: the whole 95 % interval is within the bound; not met: all of it is beyond; open: it holds the bound.
-enum class Verdict { met, open, not_met };
-Verdict error_verdict(const Outcome& outcome, double bound);
-std::string to_string(Verdict verdict);
+enum class BoundVerdict { met, open, not_met };
+BoundVerdict error_verdict(const Outcome& outcome, double bound);
+std::string to_string(BoundVerdict verdict);
 
 struct Verification {
   std::string lights;
   Outcome outcome;
-  Verdict verdict;  // of the error
+  BoundVerdict verdict;  // of the error
 };
 
 struct TuneResult {

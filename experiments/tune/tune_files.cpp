@@ -62,13 +62,13 @@ std::vector<size_t> ranked(const TunePlan& plan, const TuneResult& result) {
 
 // "met on 3 of 4 lightings that the search did not see (open on 1)".
 std::string verified_text(const TuneResult& result) {
-  const auto count = [&](Verdict v) {
+  const auto count = [&](BoundVerdict v) {
     return std::count_if(result.verified.begin(), result.verified.end(),
                          [&](const Verification& x) { return x.verdict == v; });
   };
   std::string text = fmt::format("met on {} of {} lightings that the search did not see", result.met(),
                                  result.verified.size());
-  if (const auto open = count(Verdict::open))
+  if (const auto open = count(BoundVerdict::open))
     text += fmt::format("; open on {}: the interval holds the bound", open);
   return text;
 }

@@ -62,7 +62,7 @@ TEST(TuneRunner, ASettingThatIsRightOnlyUnderTheSearchedLightsIsToldSo) {
   ASSERT_EQ(result.verified.size(), 2u);
   EXPECT_EQ(result.met(), 0);
   for (const Verification& v : result.verified) {
-    EXPECT_EQ(v.verdict, Verdict::not_met);
+    EXPECT_EQ(v.verdict, BoundVerdict::not_met);
     EXPECT_GT(v.outcome.error, 0.4);
   }
   EXPECT_NE(tune_text(make_tune_plan(trial.options, trial.methods), result).find("met on 0 of 2"),
@@ -130,12 +130,12 @@ TEST(TuneRunner, RefusesWrongOptionsBeforeAnythingStarts) {
 TEST(TuneVerdict, IsOpenWhereTheIntervalHoldsTheBound) {
   Outcome o;
   o.error = 0.05, o.half_width = 0.002;
-  EXPECT_EQ(error_verdict(o, 0.06), Verdict::met);
-  EXPECT_EQ(error_verdict(o, 0.051), Verdict::open);
-  EXPECT_EQ(error_verdict(o, 0.049), Verdict::open);
-  EXPECT_EQ(error_verdict(o, 0.04), Verdict::not_met);
+  EXPECT_EQ(error_verdict(o, 0.06), BoundVerdict::met);
+  EXPECT_EQ(error_verdict(o, 0.051), BoundVerdict::open);
+  EXPECT_EQ(error_verdict(o, 0.049), BoundVerdict::open);
+  EXPECT_EQ(error_verdict(o, 0.04), BoundVerdict::not_met);
   o.failure = "failed";
-  EXPECT_EQ(error_verdict(o, 0.06), Verdict::not_met);
+  EXPECT_EQ(error_verdict(o, 0.06), BoundVerdict::not_met);
 }
 
 // Red if a lamp hangs in a wall, or two lamps are alike.
