@@ -7,7 +7,15 @@
 namespace relight::gpu {
 namespace {
 
-constexpr int64_t texel_bytes = 16;
+GLenum internal(TexelView::Format format) {
+  using enum TexelView::Format;
+  return format == rgba32f ? GL_RGBA32F : format == rgba32ui ? GL_RGBA32UI : format == rgb32ui ? GL_RGB32UI : GL_R32UI;
+}
+
+int64_t texel_bytes(TexelView::Format format) {
+  using enum TexelView::Format;
+  return format == r32ui ? 4 : format == rgb32ui ? 12 : 16;
+}
 
 int64_t limit(GLenum name) {
   GLint value = 0;
@@ -19,11 +27,10 @@ int64_t limit(GLenum name) {
 
 TexelView::TexelView(const Buffer& buffer, Format format, int64_t offset, int64_t bytes)
     : object_(create_object(ObjectKind::texture, GL_TEXTURE_BUFFER)) {
-  const GLenum internal_format = format == Format::rgba32f ? GL_RGBA32F : GL_RGBA32UI;
-  if (bytes / texel_bytes > max_texels()) {
-    fail("a view of {} texels was asked for; this GPU takes {} in a buffer texture", bytes / texel_bytes,
-         max_texels());
-  }
+  const GLenum internal_format = internal(format);
+  const int64_t texels = bytes / texel_bytes(format);
+  if (texels > max_texels())
+    fail("a view of {} texels was asked for; this GPU takes {} in a buffer texture", texels, max_texels());
   // GL refuses an empty range; empty buffers have an unused vec4.
   if (bytes == 0)
     glTextureBuffer(object_.id(), internal_format, buffer.id());

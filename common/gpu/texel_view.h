@@ -12,7 +12,7 @@ namespace relight::gpu {
 
 class TexelView {
  public:
-  enum class Format { rgba32f, rgba32ui };
+  enum class Format { rgba32f, rgba32ui, rgb32ui, r32ui };
   TexelView() = default;
   // Views bytes [offset, offset + bytes) of the buffer, which must outlive the view; offset must be a
   // multiple of alignment(). Throws Error if the driver takes fewer texels.

@@ -60,6 +60,12 @@ void write_exr(const std::filesystem::path& file, const Image& image,
   write_encoded(file, spec, image.pixels.data());
 }
 
+std::string read_exr_attribute(const std::filesystem::path& file, const std::string& name) {
+  const auto in = OIIO::ImageInput::open(file.string());
+  if (!in) fail("cannot read '{}': {}", file.string(), OIIO::geterror());
+  return in->spec().get_string_attribute(name);
+}
+
 Image read_exr(const std::filesystem::path& file) {
   const auto in = OIIO::ImageInput::open(file.string());
   if (!in) fail("cannot read '{}': {}", file.string(), OIIO::geterror());

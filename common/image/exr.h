@@ -25,6 +25,8 @@ void write_exr_layers(const std::filesystem::path& file, const std::vector<Named
 Image read_exr_layer(const std::filesystem::path& file, const std::string& name);
 // The first image's first three channels, or one grey channel for all three. Throws Error naming the file.
 Image read_exr(const std::filesystem::path& file);
+// A string attribute of the header; empty if it has none of that name. Throws Error naming the file.
+std::string read_exr_attribute(const std::filesystem::path& file, const std::string& name);
 // sRGB-encoded 8-bit PNG of image x exposure, clamped to [0,1]; pixels with NaN or infinity are magenta.
 void write_png(const std::filesystem::path& file, const Image& image, float exposure);
 

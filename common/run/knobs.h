@@ -14,6 +14,39 @@ enum class KnobType { integer, real, choice, boolean };
 // A precompute knob changes the prepared data (and its cache key); a relight knob only the query.
 enum class KnobPhase { precompute, relight };
 
+// How a search for a cheap setting may turn a knob: data, so that no search needs to know a knob by name.
+struct KnobTuning {
+  enum class Steps {
+    none,    // no knob to tune: it decides what is computed, not how well
+    factor,  // value x step, value / step
+    add,     // value + step, value - step
+    choices  // the next of `choices`, in either direction
+  };
+  Steps steps = Steps::none;
+  double step = 2.0;
+  double low = 0.0, high = 0.0;           // where a search may go; both 0: the valid range
+  std::vector<std::string> choices = {};  // those worth trying, usually the cheapest first
+  bool larger_costs_more = true;          // and is usually better: which direction is tried first
+  // Another knob, and its values with which this one changes nothing; none: it always may.
+  std::string idle_knob = {};
+  std::vector<std::string> idle_values = {};
+
+  KnobTuning idle_while(std::string knob, std::vector<std::string> values) const {
+    KnobTuning tuning = *this;
+    tuning.idle_knob = std::move(knob), tuning.idle_values = std::move(values);
+    return tuning;
+  }
+};
+inline KnobTuning tuned_by_factor(double step, double low, double high, bool larger_costs_more = true) {
+  return {KnobTuning::Steps::factor, step, low, high, {}, larger_costs_more, {}, {}};
+}
+inline KnobTuning tuned_by_adding(double step, double low, double high, bool larger_costs_more = true) {
+  return {KnobTuning::Steps::add, step, low, high, {}, larger_costs_more, {}, {}};
+}
+inline KnobTuning tuned_by_choice(std::vector<std::string> cheapest_first) {
+  return {KnobTuning::Steps::choices, 0.0, 0.0, 0.0, std::move(cheapest_first), true, {}, {}};
+}
+
 struct Knob {
   std::string name;
   KnobType type;
@@ -23,6 +56,7 @@ struct Knob {
   std::vector<std::string> choices;  // for choice
   std::string stage;                 // the stage whose cost it changes
   std::string help;                  // one sentence
+  KnobTuning tuning = {};            // none unless the table says so
 };
 
 using KnobTable = std::vector<Knob>;

@@ -119,10 +119,10 @@ class Sampler {
   GatherCloud& cloud_;
 };
 
-// Eight million particles give a layer of a cell of average importance some thirty hits at 65,536 samples, if
-// the surface crosses all 32 layers, and a place of a twentieth of the average still one or two. With more
-// bounces each particle hits as many times more.
-constexpr int64_t particle_hits = 1 << 23;
+// Hits of particles for each sample: a layer of a cell of average importance gets some thirty, if the surface
+// crosses all 32 layers, and a place of a twentieth of the average still one or two. With more bounces each
+// particle hits as many times more. The most are what 65,536 samples take, the least keep a rough map.
+constexpr int64_t hits_a_sample = 128, most_hits = 1 << 23, least_hits = 1 << 18;
 // A cell is large enough for this many samples of a uniform cloud: small enough to follow visibility, large
 // enough to count.
 constexpr double samples_a_cell = 8.0;
@@ -153,8 +153,8 @@ GatherCloud make_gather_cloud_for_view(const RayTracer& tracer, const CloudView&
   if (!(surface > 0.0)) fail("gather cloud: scene '{}' has no surface with an area", scene.name);
   const double cell_area = samples_a_cell * surface / static_cast<double>(budget);
   std::vector<SurfacePiece> pieces = cut_surfaces(scene, 0.25 * cell_area);
-  const ImportanceMap map(tracer, view, particle_hits / view.bounces,
-                          static_cast<float>(std::sqrt(cell_area)), seed);
+  const int64_t hits = std::clamp(hits_a_sample * budget, least_hits, most_hits);
+  const ImportanceMap map(tracer, view, hits / view.bounces, static_cast<float>(std::sqrt(cell_area)), seed);
   apply_importance(pieces, map, least_importance, sampling == CloudSampling::uniform);
   return make_gather_cloud(tracer, pieces, budget, seed);
 }

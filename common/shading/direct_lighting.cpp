@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "common/gpu/program.h"
 #include "common/gpu/timer.h"
 #include "common/shading/non_finite_report.h"
@@ -33,6 +35,7 @@ Variant variant_of(const DirectLighting::Request& request) {
 // Which code a set and a light need.
 struct ProgramKey {
   Variant variant;
+  SampleFormat format;
   bool beam;
   uint64_t user_shader;  // its content; 0: none
   auto operator<=>(const ProgramKey&) const = default;
@@ -46,7 +49,8 @@ gpu::Program compile(const ProgramKey& key, Shadows shadows, const UserLight* us
       "common/shading/direct_lighting.glsl",
       {shadows == Shadows::map ? "SHADOW_MAPS 1" : "SHADOW_MAPS 0", key.beam ? "BEAM 1" : "BEAM 0",
        user ? "USER_LIGHT 1" : "USER_LIGHT 0", variant == Variant::diffuse ? "ALL_LOBES 0" : "ALL_LOBES 1",
-       variant == Variant::all_models ? "SHAPES 1" : "SHAPES 0"},
+       variant == Variant::all_models ? "SHAPES 1" : "SHAPES 0",
+       fmt::format("FORMAT {}", static_cast<int>(key.format))},
       replaced);
 }
 
@@ -170,7 +174,7 @@ void DirectLighting::Impl::shade_emitter(const Emitter& light, bool first,
 }
 
 const gpu::Program& DirectLighting::Impl::program_for(const Request& request, const Emitter& light) {
-  const ProgramKey key{variant_of(request), light.beam != nullptr,
+  const ProgramKey key{variant_of(request), request.samples->format(), light.beam != nullptr,
                        light.user ? light.user->shader->content_hash : 0};
   const auto found = programs.find(key);
   if (found != programs.end()) return found->second;
@@ -189,6 +193,8 @@ std::vector<gpu::Buffer> DirectLighting::Impl::trace(const Emitter& light,
   std::vector<gpu::Buffer> visibility;
   int64_t rays = 0;
   for (const Request& r : requests) {
+    if (r.samples->host().size() != r.samples->size())
+      throw std::logic_error("DirectLighting: traced shadows of samples that the host has dropped");
     visibility.push_back(gpu::Buffer::from(traced_visibility(tracer, r.samples->host(), light, rays)));
   }
   log.count("shadow_rays", rays);
@@ -209,6 +215,10 @@ void DirectLighting::Impl::shade_set(const gpu::Program& program, const Request&
                                      const gpu::Buffer* visibility) const {
   const Variant variant = variant_of(request);
   if (variant != Variant::diffuse) program.set("eye", request.samples->eye());
+  if (request.samples->format() != SampleFormat::full) {
+    program.set("frame", request.samples->frame());
+    if (request.samples->format() == SampleFormat::half) program.set("unit", request.samples->unit());
+  }
   report.bind_storage(report_binding);
   for (const GpuSamples::Slab& slab : request.samples->slabs()) {
     slab.data.bind(samples_unit);

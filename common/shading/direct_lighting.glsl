@@ -19,20 +19,43 @@ uniform vec3 user_right, user_up, user_forward;
 
 layout(local_size_x = 64) in;
 
-// Four texels a sample, as gpu_samples.cpp packs them; an invalid sample has zero normals. Texels, because a software
-// rasteriser reads storage blocks very slowly.
-layout(binding = 1) uniform samplerBuffer samples;
+// Texels, because a software rasteriser reads storage blocks very slowly.
 struct PackedSample {
   vec4 position_exponent;
   vec4 ns_ngx;
   vec4 ngyz_diffuse_rg;
   vec4 diffuse_b_glossy;
 };
+#if FORMAT == 0
+// Four texels a sample, as gpu_samples.cpp packs them; an invalid sample has zero normals.
+layout(binding = 1) uniform samplerBuffer samples;
 PackedSample sample_of(uint i) {
   int texel = int(i) * 4;
   return PackedSample(texelFetch(samples, texel), texelFetch(samples, texel + 1), texelFetch(samples, texel + 2),
                       texelFetch(samples, texel + 3));
 }
+#else
+#include "common/shading/sample_formats.glsl"
+layout(binding = 1) uniform usamplerBuffer samples;
+uniform vec4 frame;
+uniform float unit;
+CompactSample compact_sample(uint i) {
+#if FORMAT == 1
+  int at = int(i) * 5;
+  return half_sample(texelFetch(samples, at).r, texelFetch(samples, at + 1).r, texelFetch(samples, at + 2).r,
+                     texelFetch(samples, at + 3).r, texelFetch(samples, at + 4).r, frame, unit);
+#else
+  uvec3 words = texelFetch(samples, int(i)).rgb;
+  return byte_sample(words.x, words.y, words.z, frame);
+#endif
+}
+// Without a glossy part, and with one normal.
+PackedSample sample_of(uint i) {
+  CompactSample s = compact_sample(i);
+  return PackedSample(vec4(s.position, 1.0), vec4(s.normal, s.normal.x), vec4(s.normal.yz, s.diffuse.rg),
+                      vec4(s.diffuse.b, 0.0, 0.0, 0.0));
+}
+#endif
 layout(std430, binding = 1) buffer Radiance { vec4 radiance[]; };
 #if !SHADOW_MAPS
 layout(std430, binding = 2) readonly buffer Visibility { uint visibility[]; };  // one bit a sample

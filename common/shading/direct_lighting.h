@@ -12,6 +12,7 @@
 #include "common/run/stage_log.h"
 #include "common/sampling/surface_sample.h"
 #include "common/scene/scene.h"
+#include "common/shading/sample_formats.h"
 
 namespace relight {
 
@@ -21,16 +22,24 @@ class RayTracer;
 class GpuSamples {
  public:
   // slab_samples: the most that one dispatch shades, a multiple of 8192; 0: what the GPU takes.
-  GpuSamples(const std::vector<SurfaceSample>& samples, const glm::vec3& eye, int64_t slab_samples = 0);
-  size_t size() const { return samples_.size(); }
+  GpuSamples(std::vector<SurfaceSample> samples, const glm::vec3& eye, int64_t slab_samples = 0);
+  // Likewise of samples in a compact format.
+  GpuSamples(const CompactSamples& samples, const glm::vec3& eye, int64_t slab_samples = 0);
+  size_t size() const { return size_; }
+  SampleFormat format() const { return format_; }
+  // Of a compact format, for shaders: sample_formats.glsl.
+  const glm::vec4& frame() const { return frame_; }
+  float unit() const { return unit_; }
+  // Only traced shadows read the samples on the host. Nothing after drop_host(), which frees 128 bytes each.
   const std::vector<SurfaceSample>& host() const { return samples_; }
+  void drop_host() { samples_ = {}; }
   const glm::vec3& eye() const { return eye_; }
   int64_t bytes() const;
   // A large view may exceed what one dispatch can write (128 MiB under llvmpipe) or one texel view shows, so
   // it is shaded slab by slab.
   struct Slab {
     int64_t first = 0, count = 0;  // samples
-    gpu::TexelView data, shapes;   // four texels a sample, two texels a sample
+    gpu::TexelView data, shapes;   // four texels a sample (compact: five, one), two texels a sample
   };
   const std::vector<Slab>& slabs() const { return slabs_; }
   bool has_glossy() const { return has_glossy_; }
@@ -38,10 +47,15 @@ class GpuSamples {
   bool has_shapes() const { return shapes_.bytes() > 0; }
 
  private:
+  void cut(int64_t slab_samples);
   Slab slab(int64_t first, int64_t count) const;
 
   std::vector<SurfaceSample> samples_;
+  size_t size_;
   glm::vec3 eye_;
+  SampleFormat format_ = SampleFormat::full;
+  glm::vec4 frame_{0.0f};
+  float unit_ = 1.0f;
   gpu::Buffer data_;
   gpu::Buffer shapes_;  // BrdfShape of each sample; empty if all are zero
   std::vector<Slab> slabs_;

@@ -23,13 +23,21 @@ struct LitSamplesGpu {
   // Everything must outlive this; of `buffer` the pixels that it asks for are lit. knobs: shadows (traced, or
   // else maps), shadow_map_size, area_light_samples.
   LitSamplesGpu(gpu::Context& gpu, const Scene& scene, const RayTracer& tracer, const DeepFrameBuffer& buffer,
-                const KnobValues& knobs, const std::vector<SurfaceSample>& gather_samples)
-      : gather(gather_samples, buffer.view.camera.eye),
+                const KnobValues& knobs, std::vector<SurfaceSample> gather_samples)
+      : LitSamplesGpu(gpu, scene, tracer, buffer, knobs,
+                      GpuSamples(std::move(gather_samples), buffer.view.camera.eye)) {}
+  LitSamplesGpu(gpu::Context& gpu, const Scene& scene, const RayTracer& tracer, const DeepFrameBuffer& buffer,
+                const KnobValues& knobs, GpuSamples gather_samples)
+      : gather(std::move(gather_samples)),
         view(wanted_direct_samples(buffer), buffer.view.camera.eye),
         lighting(gpu, scene, tracer,
                  {knobs.choice("shadows") == "traced" ? Shadows::traced : Shadows::map,
                   static_cast<int>(knobs.integer("shadow_map_size")),
-                  static_cast<int>(knobs.integer("area_light_samples"))}) {}
+                  static_cast<int>(knobs.integer("area_light_samples"))}) {
+    if (knobs.choice("shadows") == "traced") return;
+    gather.drop_host();
+    view.drop_host();
+  }
 
   LitSamplesGpuResult make() const {
     return {gpu::Buffer(static_cast<int64_t>(gather.size()) * 16),

@@ -57,9 +57,11 @@ int run(int argc, char** argv) {
   relight::cli::add_references_command(app, action);
   relight::cli::add_compare_command(app, action);
   relight::cli::add_explain_error_command(app, action);
+  relight::cli::add_hard_cases_command(app, action);
   relight::cli::add_run_command(app, action);
   relight::cli::add_regress_command(app, action);
   relight::cli::add_publish_command(app, action);
+  relight::cli::add_tune_command(app, action);
   relight::cli::add_report_command(app, action);
   relight::cli::add_cache_command(app, action);
   relight::cli::add_bench_command(app, action);

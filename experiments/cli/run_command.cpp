@@ -8,6 +8,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
 #include "experiments/compare/compare.h"
+#include "experiments/experiment_page/experiment_page.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/run/workers.h"
 #include "experiments/session/output_folder.h"
@@ -58,10 +59,14 @@ int run(RunOptions options) {
   if (options.dry_run) return dry_run(options, list, out);
   std::fflush(stdout);  // before others write
   require_writable_folder("--out", out);
+  // Before the runs: a page made after a kill has its title too.
+  write_description(out, {experiment.name, experiment.title, list.left_out, experiment.paper_numbers});
   const ExperimentResult result =
       options.jobs > 1 ? run_in_workers(options, list, out) : run_experiment(list, out, options.again);
-  fmt::print("\nrecords {}\ntable   {}\nimages  {}\n", (out / "records.jsonl").string(),
-             (out / "table.csv").string(), (out / "*" / "*.exr").string());
+  if (std::filesystem::exists(out / "records.jsonl"))
+    fmt::print("{}", write_experiment_page(out, methods, RunPages::missing));
+  fmt::print("\npage    {}\nrecords {}\ntable   {}\nimages  {}\n", (out / "index.html").string(),
+             (out / "records.jsonl").string(), (out / "table.csv").string(), (out / "*" / "*.exr").string());
   for (const std::string& failure : result.failures) fmt::print("FAILED  {}\n", failure);
   return result.failures.empty() ? 0 : 1;
 }

@@ -101,6 +101,18 @@ RunRecord Comparison::run(const MethodPlan& method, const std::filesystem::path&
   return finish(std::move(started), folder);
 }
 
+RunRecord Comparison::measure(const MethodPlan& method, ArtefactCache& cache) {
+  RunRecord record = describe_run(plan_, method, session_);
+  const MethodRun run = run_method(method, session_, {session_.buffer(), cache}, plan_.repeats);
+  add_costs(record, run, session_);
+  if (!run.failure.empty()) return record;
+  StageLog reference_log;
+  add_errors(record, run.relit, reference(method, reference_log), session_);
+  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
+                         reference_log.warnings().end());
+  return record;
+}
+
 void Comparison::check_effects_of(const MethodPlan& asked, const MethodRun& run, RunRecord& record) {
   try {
     check_plan(*plan_.effects, asked, run, plan_.reference_samples, plan_.repeats, session_, record);

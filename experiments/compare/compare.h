@@ -46,6 +46,9 @@ class Comparison {
   // `folder`. A method that fails makes a record with failed_stages; OutputError if the images cannot be
   // written.
   RunRecord finish(StartedRun started, const std::filesystem::path& folder);
+  // The record alone, without effect planning and images: for searches over many settings. `cache`: of precomputed
+  // data; the session's keeps the reference.
+  RunRecord measure(const MethodPlan& method, ArtefactCache& cache);
 
  private:
   const ReferenceImages& reference(const MethodPlan& method, StageLog& log);

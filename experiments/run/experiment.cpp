@@ -52,6 +52,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
   experiment.view = table.text("view", "640x480");
   experiment.reference_samples = static_cast<int>(table.number("reference_samples", 128, {8, 16777216}));
   experiment.repeats = static_cast<int>(table.number("repeats", 0, {0, 10000}));
+  for (const std::string& numbers : table.values("paper_numbers"))
+    experiment.paper_numbers.push_back(file.parent_path() / numbers);
   experiment.time_limit_s = table.number("time_limit_s", 0.0, {0.0, 1e9});
   for (const TomlTable& group : table.tables("runs"))
     experiment.groups.push_back(read_group(group, file.parent_path()));

@@ -30,6 +30,15 @@ ErrorStage view_clusters(const KnobValues& knobs) {
           knobs.integer("view_clusters") > 0};
 }
 
+ErrorStage storage(const KnobValues& knobs) {
+  const std::string& format = knobs.choice("storage");
+  return {"storage",
+          fmt::format("Gather samples and link weights are kept as {}; twin: as 32-bit floats.",
+                      format == "bytes" ? "integers of 8 and 16 bits" : "16-bit floats"),
+          {{"storage", "full"}},
+          format != "full"};
+}
+
 ErrorStage gather_clusters(const KnobValues& knobs) {
   return {
       "gather clusters",
@@ -45,7 +54,7 @@ ErrorStages error_stages(const KnobValues& knobs) {
   ErrorStages out;
   // View clusters before interpolation: the nearest of few clusters alone would be another approximation, a
   // picture of facets.
-  out.stages = {shadows(knobs), view_clusters(knobs), interpolation(knobs), gather_clusters(knobs)};
+  out.stages = {shadows(knobs), storage(knobs), view_clusters(knobs), interpolation(knobs), gather_clusters(knobs)};
   const int64_t directions = knobs.integer("directions");
   out.remainder = "directions";
   out.remainder_sentence = fmt::format(

@@ -48,6 +48,14 @@ Direction glossy_direction(const SurfaceSample& from, const glm::vec3& eye, floa
   return {wi, shader::brdf_glossy(brdf, n, wo, wi) * (cosine / density)};
 }
 
+// What gather samples are lit by: a glossy part would be kept, uploaded and never read.
+SurfaceSample lambert(SurfaceSample s) {
+  s.glossy = s.emission = glm::vec3(0.0f);
+  s.exponent = 1.0f;
+  s.shape = {};
+  return s;
+}
+
 // The points that directions from the view cluster hit. Points that reflect nothing diffusely are kept: they
 // are part of what the clusters must cover, and removing them would be a clustering of its own.
 // square: null if directions that hit nothing are black.
@@ -66,7 +74,7 @@ void trace(const RayTracer& tracer, const SurfaceSample& from, uint64_t scramble
     const Hit hit = tracer.intersect(origin, d.wi);
     if (!hit.valid && square) worker.misses.push_back({square->texel_of(d.wi), d.weight * share});
     if (!hit.valid) continue;
-    worker.points.push_back(tracer.surface(hit, d.wi));
+    worker.points.push_back(lambert(tracer.surface(hit, d.wi)));
     worker.weights.push_back(d.weight * share);
   }
   worker.hits += static_cast<int64_t>(worker.points.size());

@@ -1,5 +1,6 @@
 // Equation 3, outer sum: what a pixel interpolates between view clusters, times its albedo (DIFFUSE) or as it is, added to
-// what is there. A texel holds two links: cluster and weight of each.
+// what is there. A texel holds two links: cluster and weight of each, or with HALF both
+// clusters and then both weights.
 #include "common/gpu/item_index.glsl"
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform usamplerBuffer links;
@@ -18,8 +19,14 @@ void main() {
   int begin = int(i * texels_per_pixel), end = begin + int(texels_per_pixel);
   for (int at = begin; at < end; ++at) {
     uvec4 two = texelFetch(links, at);
+#if HALF
+    vec2 weights = unpackHalf2x16(two.z);
+    sum += weights.x * texelFetch(gathered, int(two.x)).rgb;
+    sum += weights.y * texelFetch(gathered, int(two.y)).rgb;
+#else
     sum += uintBitsToFloat(two.y) * texelFetch(gathered, int(two.x)).rgb;
     sum += uintBitsToFloat(two.w) * texelFetch(gathered, int(two.z)).rgb;
+#endif
   }
 #if DIFFUSE
   indirect[p] = vec4(sum * texelFetch(albedo, int(p)).rgb, 0.0f);

@@ -40,6 +40,7 @@ class ClusteredGather : public Method {
         bounces_effect("bounces", 1),
         switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
                       "glossy", "off", "auto"),
+        switch_effect("environment", "Light from the environment.", "environment", "off", "auto"),
         soft_shadows_effect("area_light_samples")};
   }
   ErrorStages error_stages(const KnobValues& knobs) const override {

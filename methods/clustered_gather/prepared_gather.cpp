@@ -1,7 +1,5 @@
 #include "methods/clustered_gather/prepared_gather.h"
 
-#include <bit>
-
 #include "common/gpu/context.h"
 #include "common/gpu/program.h"
 #include "common/gpu/texel_view.h"
@@ -11,6 +9,7 @@
 #include "common/shading/lit_samples.h"
 #include "common/shading/reconstruction.h"
 #include "methods/clustered_gather/environment_light.h"
+#include "methods/clustered_gather/storage.h"
 #include "methods/clustered_gather/sums_cpu.h"
 
 namespace relight::clustered_gather {
@@ -19,11 +18,13 @@ namespace {
 // The links of one part on the GPU, two a texel, the last of an odd number with weight 0.
 class GpuLinks {
  public:
-  GpuLinks(const Links& links, Part part)
-      : links_(pack(links)),
+  GpuLinks(const Links& links, Part part, SampleFormat format)
+      : links_(gpu::Buffer::from(pack_links(links, format))),
+        texel_(format == SampleFormat::full ? gpu::TexelView::Format::rgba32ui : gpu::TexelView::Format::rgb32ui),
         pixel_(gpu::Buffer::from(links.pixel)),
         program_(gpu::Program::compute("methods/clustered_gather/links.glsl",
-                                       {part == Part::diffuse ? "DIFFUSE 1" : "DIFFUSE 0"})),
+                                       {part == Part::diffuse ? "DIFFUSE 1" : "DIFFUSE 0",
+                                        format == SampleFormat::full ? "HALF 0" : "HALF 1"})),
         pixels_(links.pixel.size()),
         texels_per_pixel_((links.per_pixel + 1) / 2) {}
 
@@ -31,7 +32,7 @@ class GpuLinks {
                    const gpu::Buffer& indirect) const {
     using enum gpu::TexelView::Format;
     if (pixels_ == 0) return;
-    const gpu::TexelView links(links_, rgba32ui), from(gathered, rgba32f), factor(albedo, rgba32f);
+    const gpu::TexelView links(links_, texel_), from(gathered, rgba32f), factor(albedo, rgba32f);
     program_.use();
     links.bind(0), from.bind(1), factor.bind(2);
     indirect.bind_storage(3);
@@ -43,18 +44,9 @@ class GpuLinks {
   int64_t bytes() const { return links_.bytes() + pixel_.bytes(); }
 
  private:
-  static gpu::Buffer pack(const Links& links) {
-    const size_t n = links.per_pixel, texels = (n + 1) / 2;
-    std::vector<uint32_t> words(links.pixel.size() * texels * 4, 0u);
-    for (size_t i = 0; i < links.cluster.size(); ++i) {
-      const size_t at = i / n * texels * 4 + i % n * 2;
-      words[at] = links.cluster[i];
-      words[at + 1] = std::bit_cast<uint32_t>(links.weight[i]);
-    }
-    return gpu::Buffer::from(words);
-  }
-
-  gpu::Buffer links_, pixel_;
+  gpu::Buffer links_;
+  gpu::TexelView::Format texel_;
+  gpu::Buffer pixel_;
   gpu::Program program_;
   size_t pixels_;
   uint32_t texels_per_pixel_;
@@ -74,7 +66,7 @@ class PreparedGather : public Prepared {
         kept_environment_("clustered_gather", context.knobs, artefact.gather.environment.columns > 0),
         environment_(make_environment_light(context, artefact.gather, !oracle_)),
         samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
-                 artefact.gather.samples),
+                 gpu_samples(artefact.gather.samples, context.buffer.view.camera.eye, storage(context.knobs))),
         direct_(samples_.make()),
         first_(gpu::Buffer::from(artefact.gather.first)),
         albedo_(gpu::Buffer::from(albedo(context.buffer))),
@@ -83,8 +75,10 @@ class PreparedGather : public Prepared {
         sum_(gpu::Program::compute("methods/clustered_gather/indirect_sum.glsl")),
         reconstruction_(context.buffer),
         clusters_(artefact.gather.first.size() - 1) {
-    links_.emplace_back(artefact.diffuse, Part::diffuse);
-    if (!artefact.glossy.pixel.empty()) links_.emplace_back(artefact.glossy, Part::glossy);
+    const SampleFormat format = storage(context.knobs);
+    round_weights(artefact.diffuse, format), round_weights(artefact.glossy, format);
+    links_.emplace_back(artefact.diffuse, Part::diffuse, format);
+    if (!artefact.glossy.pixel.empty()) links_.emplace_back(artefact.glossy, Part::glossy, format);
     int64_t link_bytes = first_.bytes();
     for (const GpuLinks& l : links_) link_bytes += l.bytes();
     if (oracle_) host_ = {std::move(artefact), context.buffer};

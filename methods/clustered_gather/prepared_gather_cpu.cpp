@@ -5,20 +5,27 @@
 #include "common/shading/lit_samples_cpu.h"
 #include "methods/clustered_gather/environment_light.h"
 #include "methods/clustered_gather/prepared_gather.h"
+#include "methods/clustered_gather/storage.h"
 #include "methods/clustered_gather/sums_cpu.h"
 
 namespace relight::clustered_gather {
 namespace {
 
+Artefact rounded(Artefact artefact, SampleFormat format) {
+  round_weights(artefact.diffuse, format), round_weights(artefact.glossy, format);
+  return artefact;
+}
+
 class PreparedGatherCpu : public Prepared {
  public:
   PreparedGatherCpu(const PrepareContext& context, Artefact artefact)
       : scene_environment_(context.scene.environment),
-        samples_("clustered_gather", context.tracer, context.buffer, context.knobs, artefact.gather.samples),
+        samples_("clustered_gather", context.tracer, context.buffer, context.knobs,
+                 cpu_samples(std::move(artefact.gather.samples), storage(context.knobs))),
         direct_(samples_.make()),
         kept_environment_("clustered_gather", context.knobs, artefact.gather.environment.columns > 0),
         environment_(make_environment_light(context, artefact.gather, false)),
-        sums_(std::move(artefact), context.buffer),
+        sums_(rounded(std::move(artefact), storage(context.knobs)), context.buffer),
         reconstruction_(context.buffer) {
     context.log.bytes("gather_samples", samples_.gather.bytes());
     context.log.bytes("view_samples", samples_.view.bytes() + reconstruction_.bytes());

@@ -38,8 +38,8 @@ void add_product(const float* a, const float* b, size_t rows, size_t width, floa
 
 }  // namespace
 
-LightRefit::LightRefit(const TrainingLights& training, float ridge)
-    : training_(training), ridge_(static_cast<double>(ridge)) {
+LightRefit::LightRefit(const TrainingLights& training, float ridge, size_t largest_fit)
+    : training_(training), ridge_(static_cast<double>(ridge)), largest_fit_(largest_fit) {
   // The serial variant of the library keeps unguarded global buffers: called from several threads, it gives
   // wrong numbers without a word.
   if (openblas_get_parallel() == 0)
@@ -55,14 +55,21 @@ void LightRefit::refit(const std::vector<LaneCoefficient>& all, std::array<Refit
   gather_candidates(rows);
   if (columns_.empty()) return;
   const int n = static_cast<int>(columns_.size()), lights = static_cast<int>(training_.count);
-  gram_.assign(columns_.size() * columns_.size(), 0.0f);
-  cblas_ssyrk(CblasRowMajor, CblasLower, CblasNoTrans, n, lights, 1.0f, packed_.data(), lights, 0.0f,
-              gram_.data(), n);
+  if (columns_.size() <= largest_fit_) multiply(packed_.data(), columns_.size());
   right_sides_.assign(columns_.size() * lanes, 0.0f);
   cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, n, lanes, lights, 1.0f, packed_.data(), lights,
               answers_.data(), lights, 0.0f, right_sides_.data(), lanes);
   for (size_t i = 0; i < lanes; ++i)
     if (!rows[i].entries.empty()) reduce(rows[i], i);
+}
+
+// H of some columns from their weighted responses.
+void LightRefit::multiply(const float* responses, size_t columns) {
+  const int n = static_cast<int>(columns), lights = static_cast<int>(training_.count);
+  gram_columns_ = columns;
+  gram_.assign(columns * columns, 0.0f);
+  cblas_ssyrk(CblasRowMajor, CblasLower, CblasNoTrans, n, lights, 1.0f, responses, lights, 0.0f, gram_.data(),
+              n);
 }
 
 // Answers of the whole rows.
@@ -111,46 +118,104 @@ void LightRefit::gather_candidates(const std::array<RefitRow, lanes>& rows) {
 // Drops candidates until `target` are left and gives these the values that fit best.
 void LightRefit::reduce(RefitRow& row, size_t lane) {
   if (row.target == 0) return row.entries.clear();
+  fixed_.clear();
+  if (row.entries.size() > largest_fit_) fix_lightest(row, lane);
+  const size_t target = row.target - fixed_.size();
   set_up(row, lane);
-  const size_t step = (row.entries.size() - row.target + elimination_rounds - 1) / elimination_rounds;
+  const size_t step = (row.entries.size() - target + elimination_rounds - 1) / elimination_rounds;
   solve();
-  while (left_.size() > row.target) {
-    drop_least(std::min(step, left_.size() - row.target));
+  while (left_.size() > target) {
+    drop_least(std::min(step, left_.size() - target));
     solve();
   }
+  row.entries.clear();
   for (size_t p = 0; p < left_.size(); ++p)
-    row.entries[p] = {columns_[left_[p]], static_cast<float>(solution_[p])};
-  row.entries.resize(left_.size());
+    row.entries.push_back({columns_[left_[p]], static_cast<float>(solution_[p])});
+  row.entries.insert(row.entries.end(), fixed_.begin(), fixed_.end());
+  if (!fixed_.empty()) std::ranges::sort(row.entries, {}, &SparseEntry::column);
 }
 
-// Places of the row's candidates among the tile's columns, their values and the ridge. Where no training
-// light excites any of them, the values stay and the largest are kept.
+// Takes out of the row what does not fit: first what the target does not want, then what keeps its value.
+void LightRefit::fix_lightest(RefitRow& row, size_t lane) {
+  const int lights = static_cast<int>(training_.count);
+  const auto responses = [&](const SparseEntry& e) {
+    const auto column = std::lower_bound(columns_.begin(), columns_.end(), e.column);
+    return packed_.data() + (column - columns_.begin()) * lights;
+  };
+  std::vector<std::pair<float, SparseEntry>> weighed;
+  for (const SparseEntry& e : row.entries) {
+    const float* r = responses(e);
+    weighed.emplace_back(e.value * e.value * cblas_sdot(lights, r, 1, r, 1), e);
+  }
+  std::ranges::sort(weighed, [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second.column < b.second.column;
+  });
+  weighed.resize(std::max(row.target, largest_fit_));
+  residual_.assign(answers_.data() + lane * training_.count, answers_.data() + (lane + 1) * training_.count);
+  row.entries.clear();
+  for (const auto& [weight, e] : weighed) {
+    if (row.entries.size() < largest_fit_) {
+      row.entries.push_back(e);
+      continue;
+    }
+    fixed_.push_back(e);
+    cblas_saxpy(lights, -e.value, responses(e), 1, residual_.data(), 1);
+  }
+  std::ranges::sort(row.entries, {}, &SparseEntry::column);
+}
+
+// Places of the row's candidates among the tile's columns, their values, right sides and ridge.
 void LightRefit::set_up(const RefitRow& row, size_t lane) {
-  const size_t n = columns_.size();
-  left_.clear(), prior_.clear(), stiffness_.clear(), right_.clear();
-  double trace = 0.0;
+  left_.clear(), prior_.clear(), right_.clear();
   size_t k = 0;
   for (const SparseEntry& e : row.entries) {  // ascending, too
     while (columns_[k] != e.column) ++k;
     left_.push_back(k);
     prior_.push_back(static_cast<double>(e.value));
     right_.push_back(static_cast<double>(right_sides_[k * lanes + lane]));
-    stiffness_.push_back(static_cast<double>(gram_[k * n + k]));
+  }
+  if (columns_.size() <= largest_fit_)
+    place_ = left_;
+  else
+    multiply_row();
+  set_ridge();
+}
+
+// H of the row alone, and its right sides where other entries keep their values.
+void LightRefit::multiply_row() {
+  const size_t lights = training_.count, size = left_.size();
+  row_responses_.resize(size * lights);
+  place_.resize(size);
+  for (size_t p = 0; p < size; ++p) {
+    std::copy_n(packed_.data() + left_[p] * lights, lights, row_responses_.data() + p * lights);
+    place_[p] = p;
+    if (!fixed_.empty())
+      right_[p] = static_cast<double>(
+          cblas_sdot(static_cast<int>(lights), row_responses_.data() + p * lights, 1, residual_.data(), 1));
+  }
+  multiply(row_responses_.data(), size);
+}
+
+// Where no training light excites any of the candidates, the values stay and the largest are kept.
+void LightRefit::set_ridge() {
+  stiffness_.clear();
+  double trace = 0.0;
+  for (size_t p = 0; p < left_.size(); ++p) {
+    stiffness_.push_back(static_cast<double>(gram(p, p)));
     trace += stiffness_.back();
   }
-  const double floor = stiffness_floor * trace / static_cast<double>(row.entries.size());
+  const double floor = stiffness_floor * trace / static_cast<double>(left_.size());
   for (double& s : stiffness_) s = trace > 0.0 ? ridge_ * (s + floor) : 1.0;
 }
 
 // The normal equations (H_SS + M) w = G_S W^2 y + M c_S, M the ridge, of what is left, in double; leaves the
 // Cholesky factor in matrix_.
 void LightRefit::solve() {
-  const size_t n = columns_.size(), size = left_.size();
+  const size_t size = left_.size();
   matrix_.resize(size * size);
   solution_.resize(size);
   for (size_t p = 0; p < size; ++p) {
-    for (size_t q = 0; q <= p; ++q)
-      matrix_[p * size + q] = static_cast<double>(gram_[left_[p] * n + left_[q]]);
+    for (size_t q = 0; q <= p; ++q) matrix_[p * size + q] = static_cast<double>(gram(p, q));
     matrix_[p * size + p] += stiffness_[p];
     solution_[p] = right_[p] + stiffness_[p] * prior_[p];
   }
@@ -185,11 +250,11 @@ void LightRefit::drop_least(size_t count) {
       ++next;
       continue;
     }
-    left_[kept] = left_[p], prior_[kept] = prior_[p], stiffness_[kept] = stiffness_[p];
-    right_[kept] = right_[p];
+    left_[kept] = left_[p], place_[kept] = place_[p], prior_[kept] = prior_[p];
+    stiffness_[kept] = stiffness_[p], right_[kept] = right_[p];
     ++kept;
   }
-  left_.resize(kept), prior_.resize(kept), stiffness_.resize(kept), right_.resize(kept);
+  left_.resize(kept), place_.resize(kept), prior_.resize(kept), stiffness_.resize(kept), right_.resize(kept);
 }
 
 }  // namespace relight::direct_to_indirect

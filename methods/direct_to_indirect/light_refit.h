@@ -13,6 +13,9 @@
 // Which candidates stay is decided by backward elimination: setting w_i to zero and letting the others adapt
 // raises the objective by w_i^2 / (A^-1)_ii, A the matrix of the normal equations (the saliency of Hassibi
 // and Stork, "Second order derivatives for network pruning: Optimal Brain Surgeon", 1992).
+//
+// The work grows with the cube of a row's entries. Of a row with more than `largest_fit` those with the smallest
+// answers c_k^2 H_kk keep their values, and the others are fitted to what these leave of the row's answers.
 #pragma once
 
 #include <array>
@@ -34,8 +37,13 @@ struct RefitRow {
 // Scratch of one thread for the rows of one tile at a time.
 class LightRefit {
  public:
-  // `training` must outlive this; training.count > 0.
-  LightRefit(const TrainingLights& training, float ridge);
+  // Above this the products of a tile's columns cost more than those of each row's. Rows of 100 coefficients
+  // stay below, even where a tile of 16 shares them.
+  static constexpr size_t default_largest_fit = 1600;
+
+  // `training` must outlive this; training.count > 0. largest_fit: entries of a row that are fitted together,
+  // and columns of a tile whose products its rows share; > 0.
+  LightRefit(const TrainingLights& training, float ridge, size_t largest_fit = default_largest_fit);
 
   // all: every coefficient of the tile's rows; rows[i]: candidates of row i, reduced to their target in
   // place.
@@ -48,25 +56,34 @@ class LightRefit {
   void gather_answers(const std::vector<LaneCoefficient>& all);
   void weigh_lights();
   void gather_candidates(const std::array<RefitRow, lanes>& rows);
+  void multiply(const float* responses, size_t columns);
   void reduce(RefitRow& row, size_t lane);
   void set_up(const RefitRow& row, size_t lane);
+  void fix_lightest(RefitRow& row, size_t lane);
+  void multiply_row();
+  void set_ridge();
   void solve();
   void drop_least(size_t count);
+  float gram(size_t p, size_t q) const { return gram_[place_[p] * gram_columns_ + place_[q]]; }
 
   const TrainingLights& training_;
   double ridge_;
+  size_t largest_fit_;
   std::vector<float> answers_;      // lanes x lights
   std::vector<float> weights_;      // W
   std::vector<uint32_t> columns_;   // candidates of any row of the tile, ascending
   std::vector<float> block_;        // responses of a block of coefficients
   std::vector<float> packed_;       // weighted responses of columns_: columns x lights
-  std::vector<float> gram_;         // columns x columns, lower triangle
   std::vector<float> right_sides_;  // columns x lanes
-  // One row: indices into columns_ of what is left, whole row's values, ridge, right sides, solution, and the
-  // normal equations' factor.
-  std::vector<size_t> left_;
+  std::vector<float> gram_;         // H, lower triangle: of columns_, or of one row's if the tile has too many
+  size_t gram_columns_ = 0;
+  // One row: what is left as indices into columns_ and into H, the whole row's values, ridge, right sides,
+  // solution, and the normal equations' factor; then what keeps its value.
+  std::vector<size_t> left_, place_;
   std::vector<double> prior_, stiffness_, right_, solution_, matrix_;
   std::vector<std::pair<double, size_t>> saliency_;
+  std::vector<SparseEntry> fixed_;
+  std::vector<float> residual_, row_responses_;  // answers that fixed_ leaves; responses of left_
 };
 
 }  // namespace relight::direct_to_indirect

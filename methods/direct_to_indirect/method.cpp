@@ -41,6 +41,7 @@ class DirectToIndirect : public Method {
         bounces_effect("bounces", 8),
         switch_effect("glossy_final_gather", "Indirect light in glossy reflections at the visible surface.",
                       "glossy", "off", "auto"),
+        switch_effect("environment", "Light from the environment.", "environment", "off", "auto"),
         soft_shadows_effect("area_light_samples")};
   }
   std::unique_ptr<Prepared> prepare(const PrepareContext& context) const override {

@@ -24,8 +24,8 @@ std::vector<Miss> random_misses(size_t count) {
   return misses;
 }
 
-// Red if a miss is lost or counted twice where a node is cut (not tried yet: the run's last miss left out),
-// or a node's column belongs to another level (not tried yet).
+// Red if a miss is lost or counted twice where a node is cut (tried: the run's last miss left out),
+// or a node's column belongs to another level (tried).
 TEST(EnvironmentShares, KeepWeightAndLimitAndStandForTheirOwnDirections) {
   for (const size_t limit : {1, 2, 7, 60, 0}) {
     std::vector<Miss> misses = random_misses(300);

@@ -49,17 +49,17 @@ TEST(GlossyMethod, EveryProductOfTheCachedMatrixAgreesWithTheDoublePrecisionOrac
   TransferBench bench(half_glossy_room(), 60, 45);
   for (const char* gather : {"links", "rays"}) {
     const Relit oracle = relit(bench, {{"device", "oracle"}, {"glossy_gather", gather}});
-    EXPECT_EQ(bench.prepare_log.counters().count("cache_hits"), 0u);
-    EXPECT_GT(bench.prepare_log.counters().at("glossy_pixels"), 100);
+    EXPECT_EQ(bench.precompute_log.counters().count("cache_hits"), 0u);
+    EXPECT_GT(bench.precompute_log.counters().at("glossy_pixels"), 100);
     for (const auto& [device, product] :
          {std::pair{"gpu", "rows"}, {"gpu", "tiles"}, {"gpu", "quads"}, {"cpu", "rows"}, {"cpu", "tiles"}}) {
       StageLog log;
       const Relit found = relit(
           bench,
           {{"device", device}, {"product", product}, {"weights", "float32"}, {"glossy_gather", gather}}, log);
-      EXPECT_EQ(bench.prepare_log.counters().at("cache_hits"), 1);
+      EXPECT_EQ(bench.precompute_log.counters().at("cache_hits"), 1);
       EXPECT_LT(relative_difference(found.indirect, oracle.indirect), 1.2e-5) << device << " " << product;
-      EXPECT_EQ(bench.prepare_log.bytes().count("glossy_transfer_product"), 1u);
+      EXPECT_EQ(bench.precompute_log.bytes().count("glossy_transfer_product"), 1u);
       EXPECT_EQ(log.stages().at(4).first, "glossy_transfer");
     }
   }
@@ -81,9 +81,9 @@ TEST(GlossyMethod, CostsNothingWhereNoVisibleSurfaceIsGlossy) {
   TransferBench bench(tiny::room());
   StageLog off_log, auto_log;
   const Relit off = relit(bench, {{"glossy", "off"}}, off_log);
-  const StageLog off_prepare = bench.prepare_log;
+  const StageLog off_prepare = bench.precompute_log;
   const Relit on = relit(bench, {{"glossy_gather", "rays"}}, auto_log);
-  const StageLog& prepare = bench.prepare_log;
+  const StageLog& prepare = bench.precompute_log;
   EXPECT_EQ(std::memcmp(off.total.pixels.data(), on.total.pixels.data(),
                         off.total.pixels.size() * sizeof(glm::vec3)),
             0);

@@ -167,12 +167,25 @@ struct SmallRefit {
     }
   }
 
-  RefitRow refitted(size_t target) const {
+  RefitRow refitted(size_t target, size_t largest_fit = LightRefit::default_largest_fit) const {
     std::array<RefitRow, lanes> rows;
     for (uint32_t k = 0; k < candidates; ++k) rows[3].entries.push_back({k, all[k].value[3]});
     rows[3].target = target;
-    LightRefit(training, static_cast<float>(ridge)).refit(all, rows);
+    LightRefit(training, static_cast<float>(ridge), largest_fit).refit(all, rows);
     return rows[3];
+  }
+
+  // All candidates, half of them in one row and half in another.
+  std::vector<SparseEntry> refitted_in_halves(size_t largest_fit) const {
+    std::array<RefitRow, lanes> rows;
+    for (uint32_t k = 0; k < candidates; ++k) {
+      RefitRow& row = rows[2 + k / (candidates / 2)];
+      row.entries.push_back({k, all[k].value[0]});
+      ++row.target;
+    }
+    LightRefit(training, static_cast<float>(ridge), largest_fit).refit(all, rows);
+    rows[2].entries.insert(rows[2].entries.end(), rows[3].entries.begin(), rows[3].entries.end());
+    return rows[2].entries;
   }
 
   double g(size_t k, size_t t) const { return static_cast<double>(training.response[k * lights + t]); }
@@ -200,12 +213,13 @@ struct SmallRefit {
     return sum;
   }
 
-  // The least objective with w[zero] = 0, by exact minimisation along one coordinate after the other.
-  double least_without(size_t zero) const {
+  // The least objective with w[fixed] = value, by exact minimisation along one coordinate after the other.
+  double least_with(size_t fixed, double value) const {
     std::array<double, candidates> w{};
+    w[fixed] = value;
     for (int sweep = 0; sweep < 2000; ++sweep)
       for (size_t k = 0; k < candidates; ++k) {
-        if (k == zero) continue;
+        if (k == fixed) continue;
         std::array<double, candidates> a = w, b = w, m = w;
         a[k] = -10.0, m[k] = 0.0, b[k] = 10.0;
         const double fa = objective(a), fm = objective(m), fb = objective(b);
@@ -225,8 +239,41 @@ TEST(LightRefit, DropsTheCandidateThatCostsLeast) {
     std::array<double, SmallRefit::candidates> w{};
     for (const SparseEntry& e : row.entries) w[e.column] = static_cast<double>(e.value);
     double best = INFINITY;
-    for (size_t k = 0; k < SmallRefit::candidates; ++k) best = std::min(best, small.least_without(k));
+    for (size_t k = 0; k < SmallRefit::candidates; ++k) best = std::min(best, small.least_with(k, 0.0));
     EXPECT_NEAR(small.objective(w), best, 1e-4 * best + 1e-9) << "seed " << seed;
+  }
+}
+
+// Products of a row alone are those of its tile, to rounding. Red if the row takes the products of other
+// columns.
+TEST(LightRefit, FitsRowsOfALargeTileOneByOne) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const SmallRefit small(seed);
+    const auto together = small.refitted_in_halves(SmallRefit::candidates),
+               alone = small.refitted_in_halves(SmallRefit::candidates / 2);
+    ASSERT_EQ(together.size(), alone.size());
+    for (size_t e = 0; e < alone.size(); ++e) {
+      EXPECT_EQ(together[e].column, alone[e].column);
+      EXPECT_NEAR(together[e].value, alone[e].value, 1e-4f * std::abs(together[e].value));
+    }
+  }
+}
+
+// One entry keeps its value and the others fit what it leaves. Red if its answers are not taken off.
+TEST(LightRefit, FitsTheLargestToWhatTheOthersLeave) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const SmallRefit small(seed);
+    const RefitRow row = small.refitted(SmallRefit::candidates, SmallRefit::candidates - 1);
+    ASSERT_EQ(row.entries.size(), SmallRefit::candidates);
+    std::array<double, SmallRefit::candidates> w{};
+    size_t kept = SmallRefit::candidates;
+    for (const SparseEntry& e : row.entries) {
+      w[e.column] = static_cast<double>(e.value);
+      if (w[e.column] == small.c(e.column)) kept = e.column;
+    }
+    ASSERT_LT(kept, SmallRefit::candidates);
+    const double least = small.least_with(kept, small.c(kept));
+    EXPECT_NEAR(small.objective(w), least, 1e-4 * least + 1e-9) << "seed " << seed;
   }
 }
 

@@ -28,7 +28,7 @@ struct Bench {
   std::unique_ptr<gpu::Context> context = gpu::Context::create("osmesa");
   std::unique_ptr<Method> method = make_direct_to_indirect();
   ArtefactCache cache;
-  StageLog prepare_log, relight_log;
+  StageLog precompute_log, relight_log;
 
   explicit Bench(const std::filesystem::path& cache_folder = {})
       : cache(cache_folder, !cache_folder.empty()) {}
@@ -47,8 +47,8 @@ struct Bench {
   Relit relit(const Settings& settings) {
     const KnobValues values = knobs(settings);
     Progress progress(true);
-    prepare_log = {}, relight_log = {};
-    const PrepareContext prepare{scene, tracer, buffer, values, 1, *context, cache, progress, prepare_log};
+    precompute_log = {}, relight_log = {};
+    const PrepareContext prepare{scene, tracer, buffer, values, 1, *context, cache, progress, precompute_log};
     return method->prepare(prepare)->relight(
         tiny::lighting({tiny::omni({0.3f, 0.6f, 0.4f}, {2.0f, 1.5f, 1.0f})}), relight_log);
   }
@@ -90,18 +90,18 @@ TEST(MultiBounceMethod, AddsLightByEitherKindFromTheCacheTooAndOneBounceCostsNot
   std::filesystem::remove_all(folder);
   Bench bench(folder);
   const double one = sum(bench.relit({{"bounces", "1"}}).indirect);
-  EXPECT_EQ(mentions_of_bounces(bench.prepare_log) + mentions_of_bounces(bench.relight_log), 0);
+  EXPECT_EQ(mentions_of_bounces(bench.precompute_log) + mentions_of_bounces(bench.relight_log), 0);
   std::map<std::string, double> light;
   for (const std::string kind : {"photons", "transfer"}) {
     const Settings settings = {{"bounces", "4"}, {"multi_bounce", kind}};
     const Relit first = bench.relit(settings);
-    EXPECT_GE(mentions_of_bounces(bench.prepare_log), 7) << kind;
+    EXPECT_GE(mentions_of_bounces(bench.precompute_log), 7) << kind;
     EXPECT_EQ(mentions_of_bounces(bench.relight_log), 1) << kind;
-    const int64_t beyond = bench.prepare_log.counters().at("bounce_energy_beyond_ppm");
+    const int64_t beyond = bench.precompute_log.counters().at("bounce_energy_beyond_ppm");
     EXPECT_GT(beyond, 0);
     const Relit second = bench.relit(settings);
-    EXPECT_EQ(bench.prepare_log.counters().count("cache_hits"), 1u);
-    EXPECT_EQ(bench.prepare_log.counters().at("bounce_energy_beyond_ppm"), beyond);
+    EXPECT_EQ(bench.precompute_log.counters().count("cache_hits"), 1u);
+    EXPECT_EQ(bench.precompute_log.counters().at("bounce_energy_beyond_ppm"), beyond);
     EXPECT_EQ(relative_difference(first.total, second.total), 0.0);
     light[kind] = sum(first.indirect);
     EXPECT_GT(light[kind], 1.3 * one) << "the room is bright: bounces add half of the first";

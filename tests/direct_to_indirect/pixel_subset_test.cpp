@@ -88,7 +88,7 @@ TEST(PixelsAlone, HaveTheGlossyLightOfTheWholePicture) {
         {{"device", "cpu"}, {"upsampling", "none"}, {"glossy_gather", "rays"}, {"link_members", "all"}},
         {{"device", "gpu"}, {"weights", "float32"}, {"glossy_coefficients", "0"}}}) {
     const Both both = relit(bench, knobs, glm::ivec2(4));
-    EXPECT_GT(bench.prepare_log.counters().at("glossy_pixels"), 0);
+    EXPECT_GT(bench.precompute_log.counters().at("glossy_pixels"), 0);
     EXPECT_TRUE(same_bits(both.whole, both.alone)) << relative_difference(both.alone, both.whole);
   }
 }

@@ -57,10 +57,10 @@ TEST(ViewBasis, LosesLessToTruncationWithAsManyCoefficients) {
   StageLog log;
   const Relit all = bench.prepare(with(cpu, {{"coefficients", "0"}}))->relight(lighting, log);
   const Relit pixels = bench.prepare(few)->relight(lighting, log);
-  const int64_t pixels_kept = counter(bench.prepare_log, "non_zeros");
+  const int64_t pixels_kept = counter(bench.precompute_log, "non_zeros");
   const Relit haar = bench.prepare(with(few, {{"view_basis", "haar"}}))->relight(lighting, log);
-  EXPECT_LE(counter(bench.prepare_log, "non_zeros"), pixels_kept);
-  EXPECT_GT(counter(bench.prepare_log, "non_zeros"), pixels_kept * 99 / 100);
+  EXPECT_LE(counter(bench.precompute_log, "non_zeros"), pixels_kept);
+  EXPECT_GT(counter(bench.precompute_log, "non_zeros"), pixels_kept * 99 / 100);
   EXPECT_LT(relative_difference(haar.indirect, all.indirect),
             0.6 * relative_difference(pixels.indirect, all.indirect));
 }
@@ -113,7 +113,7 @@ TEST(ViewBasis, GivesTheSameBitsForAnyNumberOfThreads) {
                                          {"coefficients", "20"},
                                          {"refit_lights", "32"},
                                          {"refit_candidates", "1.5"}});
-    EXPECT_LE(counter(bench.prepare_log, "non_zeros"), 18 * 14 * 20);
+    EXPECT_LE(counter(bench.precompute_log, "non_zeros"), 18 * 14 * 20);
     results.push_back(prepared->relight(lighting, log));
   }
   const auto &a = results[0].total.pixels, &b = results[1].total.pixels;

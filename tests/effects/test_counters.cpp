@@ -66,7 +66,7 @@ void expect_no_indirect_work(const RunRecord& r) {
     EXPECT_EQ(bytes(r, name), 0) << r.method << " " << name;
 }
 
-// Red if no bounces still precompute something (mutation to try: without the branch to direct light alone the method
+// Red if no bounces still precompute something (tried: without the branch to direct light alone the method
 // fails or gathers).
 TEST(EffectCounters, WithDirectLightAloneNothingIsGathered) {
   for (const char* scene : {"plane", "cube"})
@@ -135,7 +135,7 @@ TEST(EffectCounters, ALampThatCastsNoShadowsGetsNoShadowMapAndThePlanSaysSo) {
 }
 
 // A planted wrong decision: one bounce where many are needed. Red if the check measures what the plan says in
-// place of what it lost (mutation to try: everything's levels taken from the plan).
+// place of what it lost (tried: everything's levels taken from the plan).
 TEST(EffectCounters, ABounceLeftOutByForceIsCaughtByTheCheck) {
   for (const RunRecord& r : run({"bright_box", "omni", {"bounces=1"}, false})) {
     expect_good(r);

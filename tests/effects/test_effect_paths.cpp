@@ -30,7 +30,7 @@ TEST(EffectPaths, AMethodCarriesWhatItsLightPathsSay) {
   EXPECT_TRUE(carries(paths, {.bounces = -1, .end = LightEnd::environment}));
 }
 
-// Red if classes that some choice of levels tells apart share a group (mutation to try: the group taken from the last
+// Red if classes that some choice of levels tells apart share a group (tried: the group taken from the last
 // choice alone: bounces 1 to 3 become one group).
 TEST(EffectPaths, ClassesShareAGroupOnlyIfAllChoicesTreatThemAlike) {
   const auto method = make_planted_method();

@@ -39,7 +39,7 @@ TEST(Loss, WithoutNoiseTheLossIsTheQuotientOfTheNorms) {
   EXPECT_EQ(estimator.lost(std::vector<uint8_t>{0, 0}).high, 0.0);
 }
 
-// Red if lost light counts that the clamp hides (mutation to try: without the excess).
+// Red if lost light counts that the clamp hides (tried: without the excess).
 TEST(Loss, LightAboveTheClampIsNotLost) {
   const LightByGroup light = two_groups(8, 0.8f, 0.4f, 0.0f, 1);
   const LossEstimator estimator(light, {1, 1}, 1.0);
@@ -52,7 +52,7 @@ TEST(Loss, LightAboveTheClampIsNotLost) {
 }
 
 // The mean of noisy squares is larger than the square of the mean; products of different replicates aren't.
-// Red if noise is not taken out (mutation to try: |mean|^2 in place of the products), or twice.
+// Red if noise is not taken out (tried: |mean|^2 in place of the products), or twice.
 TEST(Loss, NoiseDoesNotBiasTheSquaredLoss) {
   double sum = 0.0, squares = 0.0;
   constexpr int seeds = 400;
@@ -67,7 +67,7 @@ TEST(Loss, NoiseDoesNotBiasTheSquaredLoss) {
   EXPECT_LT(error / mean, 0.02);
 }
 
-// Red if the interval is too narrow (mutation to try: without the factor n - 1 of the jackknife), or so
+// Red if the interval is too narrow (tried: without the factor n - 1 of the jackknife), or so
 // wide that it says nothing.
 TEST(Loss, TheIntervalCoversTheTruthAsOftenAsItSays) {
   int covered = 0, too_high = 0;

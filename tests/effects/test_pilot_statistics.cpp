@@ -33,7 +33,7 @@ struct Known {
   }
 };
 
-// 200 pilots of 64 pixels. Red if replicates share random numbers (mutation to try: one seed for all), if
+// 200 pilots of 64 pixels. Red if replicates share random numbers (tried: one seed for all), if
 // the noise is counted as light, or if a bounce is counted with its neighbour.
 TEST(PilotStatistics, IntervalsCoverTheKnownShareOfEveryBounce) {
   Known known;

@@ -24,7 +24,7 @@ TEST(Planner, WithoutGlossyMaterialsARuleLeavesTheGlossyMatrixOut) {
   }
 }
 
-// Red if the rule looks at the scene's materials in place of the view (mutation to try: glossy_pixels = 1 wherever a
+// Red if the rule looks at the scene's materials in place of the view (tried: glossy_pixels = 1 wherever a
 // material is: decided by the pilot, not the rule), or at the view alone where the wall is seen.
 TEST(Planner, GlossOutOfViewIsLeftOutByARuleAndInViewIsKept) {
   const EffectPlan hidden = plan_of({"hidden_gloss", "spot", transfer});
@@ -37,7 +37,7 @@ TEST(Planner, GlossOutOfViewIsLeftOutByARuleAndInViewIsKept) {
   EXPECT_GT(decision(seen, "glossy_final_gather").next_loss->low, 0.01);
 }
 
-// Red without the rule of one plane (mutation to try: without it; the pilot should say the same, but it runs).
+// Red without the rule of one plane (tried: without it; the pilot should say the same, but it runs).
 TEST(Planner, OnOnePlaneARuleLeavesDirectLightAndNoPilotRuns) {
   for (const char* method : {transfer, "clustered_gather", "path_tracing"}) {
     const EffectPlan plan = plan_of({"plane", "omni", method});
@@ -67,7 +67,8 @@ TEST(Planner, InABrightClosedRoomAllBouncesAreComputedAndTheRestIsTold) {
 }
 
 // Bounces of a sphere of albedo 0.5 against the geometric series: the least n for which bounces n + 1 to 8
-// are below the tolerance. Red if the rest is compared with the picture of the bounces kept (mutation to try), or if a bounce is counted with its neighbour.
+// are below the tolerance. Red if the rest is compared with the picture of the bounces kept, or if a bounce is
+// counted with its neighbour.
 TEST(Planner, TheNumberOfBouncesIsThatOfTheGeometricSeries) {
   const MethodList methods = make_all_methods();
   const Method& method = find_method(methods, transfer);
@@ -93,6 +94,11 @@ TEST(Planner, EnvironmentSamplesAreTakenOnlyWhereThereIsAnEnvironment) {
   const EffectPlan with = plan_of({"sky", "omni", "path_tracing"});
   EXPECT_EQ(decision(with, "environment").level, "on");
   EXPECT_EQ(decision(with, "environment").by, DecidedBy::pilot);
+  // Every method that can leave it out.
+  for (const char* method : {"direct_to_indirect", "clustered_gather"}) {
+    EXPECT_EQ(decision(plan_of({"cornell", "omni", method}), "environment").level, "off");
+    EXPECT_EQ(decision(plan_of({"sky", "omni", method}), "environment").level, "on");
+  }
 }
 
 TEST(Planner, SoftShadowsAreComputedWhereALightHasAnArea) {
@@ -104,7 +110,7 @@ TEST(Planner, SoftShadowsAreComputedWhereALightHasAnArea) {
 }
 
 // Losses of effects that are left out together are held against the tolerance together. Red if each effect
-// has the tolerance to itself (mutation to try: base replaced by the effect's own last level).
+// has the tolerance to itself (tried: base replaced by the effect's own last level).
 TEST(Planner, TheWholePlanStaysWithinTheTolerance) {
   const auto method = make_planted_method();
   const KnobValues knobs(method->knobs());

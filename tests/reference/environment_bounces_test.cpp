@@ -68,7 +68,7 @@ TEST(EnvironmentDirect, IsTheLightOfZeroBounces) {
   EXPECT_LT(squares / variance, 2.0);
 }
 
-// Red if the limit is taken for that of other lights (not tried yet), or ends paths early.
+// Red if the limit is taken for that of other lights (tried), or ends paths early.
 TEST(EnvironmentBounces, AreCountedApartFromThoseOfLamps) {
   const Rendering render(open_room(), 12, 9);
   const auto indirect = [&](const LightPaths& paths, const LightingState& lights) {

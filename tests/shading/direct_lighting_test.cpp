@@ -94,6 +94,21 @@ TEST_F(Direct, ShapesAreStoredOnlyIfASampleNeedsThem) {
   EXPECT_EQ(GpuSamples(one, eye).bytes(), (64 + 32) * 20000);
 }
 
+// Shadow maps don't need the samples on the host; traced shadows say so.
+TEST_F(Direct, SamplesThatTheHostDroppedAreShadedWithMapsOnly) {
+  StageLog log;
+  gpu::Buffer kept(20000 * 16), dropped(20000 * 16);
+  GpuSamples samples(samples_, eye);
+  DirectLighting maps(*context_, scene_, tracer_, {Shadows::map, 256});
+  maps.shade(two_lights(), {{&samples, Lobes::all, &kept}}, log);
+  samples.drop_host();
+  EXPECT_EQ(samples.size(), samples_.size());
+  maps.shade(two_lights(), {{&samples, Lobes::all, &dropped}}, log);
+  EXPECT_EQ(kept.download<glm::vec4>(), dropped.download<glm::vec4>());
+  DirectLighting traced(*context_, scene_, tracer_, {Shadows::traced, 0});
+  EXPECT_THROW(traced.shade(two_lights(), {{&samples, Lobes::all, &dropped}}, log), std::logic_error);
+}
+
 // Red if the glossy lobe is dropped or ignores the eye.
 TEST_F(Direct, AllLobesDifferFromDiffuseOnGlossySurfacesOnly) {
   DirectLighting shading(*context_, scene_, tracer_, {Shadows::traced, 0});

@@ -1,0 +1,110 @@
+#include "experiments/experiment_page/experiment_page.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "common/run/atomic_file.h"
+#include "common/run/error.h"
+#include "experiments/experiment_page/page_parts.h"
+#include "experiments/report/html.h"
+#include "experiments/report/sections.h"
+#include "experiments/tables/paper_numbers.h"
+
+namespace relight {
+
+tables::PrecomputeKey precompute_key(const MethodList& methods) {
+  std::map<std::string, KnobTable> knobs;
+  for (const auto& method : methods) knobs[method->name()] = method->knobs();
+  return [knobs](const RunRecord& r) {
+    std::string key =
+        fmt::format("{}\n{}\n{}\n{}\n{}", r.scene_hash, r.view, r.seed, r.method, r.light_paths);
+    const auto table = knobs.find(r.method);
+    for (const auto& [name, value] : r.knobs) {
+      const auto is_this = [&](const Knob& k) { return k.name == name && k.phase == KnobPhase::relight; };
+      const bool relight =
+          table != knobs.end() && std::any_of(table->second.begin(), table->second.end(), is_this);
+      if (!relight) key += fmt::format("\n{}={}", name, value);
+    }
+    return key;
+  };
+}
+
+namespace {
+
+std::string failures(const tables::Results& results, const std::vector<std::string>& left_out) {
+  const tables::Table table = tables::failures_table(results);
+  std::string html = "<section id=failures><h2>What failed, and why</h2>";
+  html += table.rows.empty() ? "<p>Nothing failed.</p>" : page::html(table);
+  for (const std::string& sentence : left_out)
+    html += fmt::format("<p>Left out: {}</p>", report::escaped(sentence));
+  return html + "</section>";
+}
+
+// The figures of the papers beside those of table.csv.
+std::vector<tables::Table> paper_tables(const std::filesystem::path& folder,
+                                        const ExperimentDescription& about) {
+  std::vector<tables::Table> list;
+  for (const std::filesystem::path& file : about.paper_numbers) {
+    std::ostringstream csv;
+    csv << std::ifstream(folder / "table.csv", std::ios::binary).rdbuf();
+    list.push_back(tables::paper_table(tables::read_paper_numbers(file),
+                                       tables::csv_rows(csv.str(), (folder / "table.csv").string())));
+    list.back().name = "paper_" + tables::plain_name(file.stem().string());
+  }
+  std::erase_if(list, [](const tables::Table& t) { return t.rows.empty(); });
+  return list;
+}
+
+std::string paper_section(const std::vector<tables::Table>& papers) {
+  if (papers.empty()) return "";
+  std::string html = "<section id=papers><h2>Beside the paper's figures</h2>";
+  for (const tables::Table& table : papers) html += page::html(table);
+  return html +
+         "<p class=note>Better, worse: beyond the interval of ours and the rounding of the paper's; within: "
+         "not. Times of other machines are shown and not judged.</p></section>\n";
+}
+
+std::string page_text(const ExperimentDescription& about, const tables::Results& results,
+                      const std::vector<tables::Table>& papers, const std::vector<std::string>& warnings) {
+  using namespace page;
+  const std::string title = report::escaped(about.title);
+  std::string html = fmt::format(
+      "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+      "content='width=device-width'><title>relight: {0}</title><style>{1}{2}</style></head>\n<body>"
+      "<header><h1>{0}</h1><p>Experiment {3} &middot; {4} runs &middot; relighting methods against a "
+      "path-traced reference</p></header>\n",
+      title, report::style_sheet, page::style_sheet, report::escaped(about.name), results.records.size());
+  html += who_wins_section(results) + "\n" + accuracy_section(results) + "\n";
+  html += "<section id=all-runs><h2>All runs</h2>" + page::html(tables::runs_table(results)) + "</section>\n";
+  html += paper_section(papers);
+  html += failures(results, about.left_out) + "\n" + left_out_section(results, about.left_out) + "\n" +
+          provenance_section(results, warnings);
+  return html + fmt::format(
+                    "\n<div id=tip hidden></div><script type='application/json' id=plot-data>{}</script>"
+                    "<script>{}{}</script></body></html>\n",
+                    plot_data(results), table_script, plot_script);
+}
+
+}  // namespace
+
+std::string write_experiment_page(const std::filesystem::path& folder, const MethodList& methods,
+                                  RunPages run_pages) {
+  const std::filesystem::path file = folder / "records.jsonl";
+  if (!std::filesystem::exists(file)) fail("'{}' holds no records.jsonl", folder.string());
+  const RecordFile read = read_records(file);
+  if (read.records.empty()) fail("'{}' holds no readable record", file.string());
+  tables::Results results;
+  results.records = tables::latest_of_each(read.records);
+  results.groups = tables::make_groups(results.records, precompute_key(methods));
+  results.links = page::write_run_pages(folder, results.records, run_pages);
+  const ExperimentDescription about = page::read_description(folder);
+  const std::vector<tables::Table> papers = paper_tables(folder, about);
+  page::write_table_files(folder, about, results, papers);
+  write_text_atomically(folder / "index.html", page_text(about, results, papers, read.warnings));
+  return tables::terminal_text(results.groups);
+}
+
+}  // namespace relight

@@ -1,0 +1,122 @@
+// Clouds and views that break sorting, normalising or dividing.
+#include <algorithm>
+#include <cmath>
+
+#include "common/hard_cases/tiny_scenes.h"
+#include "common/wavelet/haar.h"
+#include "methods/direct_to_indirect/hard_cases/gather_oracle.h"
+#include "methods/direct_to_indirect/hard_cases/hard_cases.h"
+
+namespace relight::direct_to_indirect {
+
+namespace {
+
+using namespace hard;
+
+constexpr int64_t samples = 256;
+
+Figure links_as_the_oracle(GatherSetup& s) {
+  FinalGatherSettings settings = exact_settings(samples);
+  settings.form_factor_clamp = 0.1f;
+  return at_most("element of a row, from the pair-by-pair oracle in double",
+                 worst_difference(s, settings, 0.1), 2e-5,
+                 "float geometry, Haar transform and back: some hundred roundings of 2^-24");
+}
+
+// Untruncated rows with hemisphere rays for what is near, in the space of the gather samples.
+Figures sane_hemispheres(GatherSetup& s) {
+  const NearField near(s.tracer, s.cloud, s.hierarchy, {});
+  const SparseRows rows = s.final_gather(exact_settings(samples), {}, {}, &near);
+  double least = 0.0, most = 0.0, bad = 0.0;
+  for (size_t i = 0; i < rows.rows(); ++i) {
+    double sum = 0.0;
+    for (const double f : wavelet::inverse(dense_row(rows, i))) {
+      if (!std::isfinite(f)) ++bad;
+      least = std::min(least, f);
+      sum += f;
+    }
+    most = std::max(most, sum);
+  }
+  return {at_most("elements that are not finite", bad, 0.0, "0/0 or overflow"),
+          at_least("least element", least, -1e-5, "a share of the hemisphere; float Haar and back"),
+          at_most("largest share of the hemisphere that a row receives", most, 1.1,
+                  "one, and what 256 rays and the areas of the cells are wrong by")};
+}
+
+Figures sane_rows(GatherSetup& s) {
+  Figures figures = {links_as_the_oracle(s)};
+  add_worst(figures, sane_hemispheres(s));
+  return figures;
+}
+
+void rebuild(GatherSetup& s) {
+  order_gather_cloud(s.cloud, 30.0f, s.scene.bounds.diagonal());
+  s.hierarchy = build_hierarchy(s.cloud);
+}
+
+// r = 0: the element of a sample to itself is zero, not 0/0.
+Figures samples_coincide_with_the_view() {
+  GatherSetup s(tiny::room(), 16, 16, samples, true);
+  for (size_t i = 0; i < samples; ++i) s.buffer.indirect[i] = s.cloud.samples[i];
+  return sane_rows(s);
+}
+
+Figures all_samples_coincide() {
+  GatherSetup s(tiny::room(), 8, 8, samples, true);
+  const SurfaceSample one = s.cloud.samples[100];
+  for (SurfaceSample& sample : s.cloud.samples) sample = one;
+  rebuild(s);
+  return sane_rows(s);
+}
+
+// Half of them face one way, half the other.
+Figures opposing_normals() {
+  GatherSetup s(tiny::room(), 8, 8, samples, true);
+  for (size_t j = 0; j < samples; ++j) {
+    s.cloud.samples[j].position = s.cloud.samples[j / 2 * 2].position;
+    const glm::vec3 n = s.cloud.samples[j / 2 * 2].geometric_normal;
+    s.cloud.samples[j].geometric_normal = s.cloud.samples[j].shading_normal = j % 2 ? -n : n;
+  }
+  rebuild(s);
+  return sane_rows(s);
+}
+
+Figures grid_in_one_plane() {
+  GatherSetup s(tiny::room(), 8, 8, samples, true);
+  for (size_t j = 0; j < samples; ++j) {
+    s.cloud.samples[j].position = {static_cast<float>(j % 16) / 8.0f - 1.0f, -1.0f,
+                                   static_cast<float>(j / 16) / 8.0f - 1.0f};
+    s.cloud.samples[j].geometric_normal = s.cloud.samples[j].shading_normal = {0, 1, 0};
+  }
+  rebuild(s);
+  return sane_rows(s);
+}
+
+// Two triangles, one of them a sliver a million times longer than wide.
+Figures slivers() {
+  Scene scene = tiny::empty_scene();
+  tiny::add_quad(scene, {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  const uint32_t a = tiny::add_vertex(scene, {-1, 0.5f, 0}, {0, -1, 0});
+  tiny::add_vertex(scene, {1, 0.5f, 0}, {0, -1, 0});
+  tiny::add_vertex(scene, {1, 0.5f, 2e-6f}, {0, -1, 0});
+  tiny::add_triangle(scene, a, a + 1, a + 2);
+  scene.camera.eye = {0.1f, 0.4f, 1.5f}, scene.camera.target = {0, 0.2f, 0};
+  finish_scene(scene);
+  GatherSetup s(std::move(scene), 8, 8, samples, true);
+  return sane_rows(s);
+}
+
+}  // namespace
+
+Cases precompute_cases() {
+  return {{"gather samples at view samples", "r = 0 gives 0/0 unless facing and sign are tested first.",
+           samples_coincide_with_the_view},
+          {"all gather samples coincide", "All split keys are equal, clusters have no size.",
+           all_samples_coincide},
+          {"clusters of opposing normals", "A mean normal of zero has no direction.", opposing_normals},
+          {"gather samples on a grid in one plane", "Split keys tie by the dozen.", grid_in_one_plane},
+          {"slivers, fewer triangles than samples",
+           "Areas that round to zero; samples that share a triangle.", slivers}};
+}
+
+}  // namespace relight::direct_to_indirect

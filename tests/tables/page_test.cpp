@@ -1,0 +1,86 @@
+// The folder of an experiment: its page, the pages of its runs, and tables as files.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/run/error.h"
+#include "page_folder.h"
+
+namespace relight::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Red if a part of the page is missing, or it needs a network.
+TEST(ExperimentPage, SaysWhoWinsWhatFailedWhatWasLeftOutAndWhereItComesFrom) {
+  std::vector<RunRecord> records = planted_methods();
+  records[0].not_simulated = {"light from <windows>"};
+  const PageFolder folder(records);
+  const std::string page = folder.page();
+  for (const char* part :
+       {"Planted methods, one of them 3 % too dark", "Smallest relative error at equal relight time",
+        "3.0 % too dark", "10.0 times slower than exact", "the first at (3, 2)", "moon: not on this machine",
+        "light from &lt;windows&gt;", "0123abcd", "a processor, 2 threads", "llvmpipe", "noise floor"})
+    EXPECT_TRUE(has(page, part)) << part;
+  EXPECT_FALSE(has(page, "<windows>"));
+  for (const char* far : {"src='http", "href='http", "src=\"http", "href=\"http", "@import", "url(http"})
+    EXPECT_FALSE(has(page, far)) << far;
+}
+
+// Red if a run is linked to another's pictures, a name with '%' breaks its address, or a page that is newer
+// than its images is made again.
+TEST(ExperimentPage, LinksEachRunToAPageWithItsPictures) {
+  const std::vector<RunRecord> records = planted_methods();
+  const PageFolder folder(records);
+  folder.add_images("box_exact_tolerance=1%", records[0]);
+  folder.add_images("box_slow", records[3]);
+  const std::string page = folder.page();
+  EXPECT_TRUE(has(page, "href='box_exact_tolerance=1%25/index.html'"));
+  EXPECT_TRUE(has(page, "href='box_slow/index.html'"));
+  const fs::path run_page = folder.path / "box_slow/index.html";
+  const std::string text = text_of(run_page);
+  EXPECT_TRUE(has(text, "id=viewer"));
+  EXPECT_TRUE(has(text, "--methods slow"));
+  EXPECT_FALSE(has(text, "--methods exact"));
+  EXPECT_TRUE(has(text, "href='../index.html'"));
+  std::ofstream(run_page) << "kept";
+  folder.page();
+  EXPECT_EQ(text_of(run_page), "kept");
+  folder.page(RunPages::all);
+  EXPECT_EQ(text_of(run_page), text);
+}
+
+TEST(ExperimentPage, LeavesTheTablesAsFiles) {
+  const PageFolder folder(planted_methods());
+  folder.page();
+  const std::string md = text_of(folder.path / "tables.md"), tex = text_of(folder.path / "tables.tex");
+  EXPECT_TRUE(has(md, "## box, spot, 64x48: smallest relative error at equal relight time"));
+  EXPECT_TRUE(has(md, "3.0 % too dark"));
+  EXPECT_TRUE(has(tex, "\\caption{box, spot, 64x48: cheapest relight time at equal relative error}"));
+  const auto json = nlohmann::json::parse(text_of(folder.path / "table.json"));
+  size_t runs = 0;
+  for (const auto& table : json)
+    if (table.at("name") == "runs") runs = table.at("rows").size();
+  EXPECT_EQ(runs, planted_methods().size());
+}
+
+// Red if the page needs more than records: of an interrupted run, of an older version, of failures alone.
+TEST(ExperimentPage, IsMadeOfFailuresAloneAndWithoutADescription) {
+  const PageFolder folder({planted_failure("a", "out of memory")});
+  fs::remove(folder.path / "experiment.json");
+  EXPECT_TRUE(has(folder.page(), "out of memory"));
+  fs::remove(folder.path / "records.jsonl");
+  EXPECT_THROW(folder.page(), Error);
+}
+
+TEST(ExperimentFolder, IsToldFromThatOfAComparison) {
+  const PageFolder folder(planted_methods());
+  EXPECT_TRUE(is_experiment_folder(folder.path));
+  fs::remove(folder.path / "table.csv");
+  EXPECT_FALSE(is_experiment_folder(folder.path));
+}
+
+}  // namespace
+}  // namespace relight::test
