@@ -55,9 +55,9 @@ TEST(EnvironmentShares, KeepWeightAndLimitAndStandForTheirOwnDirections) {
 // Traced shadows, so that devices differ by rounding.
 struct Bench : test::GatherBench {
   using GatherBench::GatherBench;
-  Relit relight(Knobs knobs, const LightingState& lighting) {
+  Relit relight(Knobs knobs, const LightingState& lights) {
     knobs.insert(knobs.begin(), {{"directions", "200"}, {"shadows", "traced"}});
-    return GatherBench::relight(knobs, lighting);
+    return GatherBench::relight(knobs, lights);
   }
 };
 

@@ -77,7 +77,9 @@ TEST(KnobSteps, OfEveryMethodLeadToValidValues) {
           value = *to;
         }
       }
-      if (!k->tuning.idle_knob.empty()) EXPECT_EQ(values.all().count(k->tuning.idle_knob), 1u) << k->name;
+      if (!k->tuning.idle_knob.empty()) {
+        EXPECT_EQ(values.all().count(k->tuning.idle_knob), 1u) << k->name;
+      }
       for (const std::string& idle_value : k->tuning.idle_values)
         EXPECT_NO_THROW(values.set(k->tuning.idle_knob, idle_value)) << k->name;
     }

@@ -149,7 +149,9 @@ TEST(TuneSearch, NeverTurnsFixedUntunedOrIdleKnobs) {
     EXPECT_EQ(t.knobs.integer("y"), 16);
     EXPECT_EQ(t.knobs.integer("bounces"), 1);
     EXPECT_NE(t.knobs.choice("mode"), "wrong");
-    if (t.knobs.choice("mode") == "plain") EXPECT_EQ(t.knobs.integer("z"), 4);
+    if (t.knobs.choice("mode") == "plain") {
+      EXPECT_EQ(t.knobs.integer("z"), 4);
+    }
   }
 }
 
