@@ -13,7 +13,7 @@ namespace {
 TEST(TuneCommand, TunesARealMethodOnATinyView) {
   const TemporaryFolder folder;
   const std::string command =
-      "tune --scene cornell --lights near --view 24x18 --error 60% --method clustered_gather --runs 4 "
+      "tune --scene cornell --lights near --view 24x18 --error 80% --method clustered_gather --runs 4 "
       "--repeats 1 "
       "--set clustered_gather.directions=64 --set clustered_gather.device=cpu --reference-samples 32 "
       "--verify-lights omni --cache " +
