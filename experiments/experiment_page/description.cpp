@@ -27,7 +27,7 @@ void write_description(const std::filesystem::path& folder, const ExperimentDesc
 }
 
 bool is_experiment_folder(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "table.csv");
+  return std::filesystem::exists(folder / "experiment.json") || std::filesystem::exists(folder / "table.csv");
 }
 
 namespace page {

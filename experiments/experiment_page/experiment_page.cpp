@@ -1,8 +1,6 @@
 #include "experiments/experiment_page/experiment_page.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -11,6 +9,7 @@
 #include "experiments/experiment_page/page_parts.h"
 #include "experiments/report/html.h"
 #include "experiments/report/sections.h"
+#include "experiments/run/run_experiment.h"
 #include "experiments/tables/paper_numbers.h"
 
 namespace relight {
@@ -44,14 +43,13 @@ std::string failures(const tables::Results& results, const std::vector<std::stri
 }
 
 // The figures of the papers beside those of table.csv.
-std::vector<tables::Table> paper_tables(const std::filesystem::path& folder,
+std::vector<tables::Table> paper_tables(const std::vector<RunRecord>& records,
                                         const ExperimentDescription& about) {
   std::vector<tables::Table> list;
+  // Not from the file: an experiment that was interrupted has none yet.
+  const std::vector<tables::CsvRow> rows = tables::csv_rows(result_csv(records), "table.csv");
   for (const std::filesystem::path& file : about.paper_numbers) {
-    std::ostringstream csv;
-    csv << std::ifstream(folder / "table.csv", std::ios::binary).rdbuf();
-    list.push_back(tables::paper_table(tables::read_paper_numbers(file),
-                                       tables::csv_rows(csv.str(), (folder / "table.csv").string())));
+    list.push_back(tables::paper_table(tables::read_paper_numbers(file), rows));
     list.back().name = "paper_" + tables::plain_name(file.stem().string());
   }
   std::erase_if(list, [](const tables::Table& t) { return t.rows.empty(); });
@@ -101,7 +99,7 @@ std::string write_experiment_page(const std::filesystem::path& folder, const Met
   results.groups = tables::make_groups(results.records, precompute_key(methods));
   results.links = page::write_run_pages(folder, results.records, run_pages);
   const ExperimentDescription about = page::read_description(folder);
-  const std::vector<tables::Table> papers = paper_tables(folder, about);
+  const std::vector<tables::Table> papers = paper_tables(results.records, about);
   page::write_table_files(folder, about, results, papers);
   write_text_atomically(folder / "index.html", page_text(about, results, papers, read.warnings));
   return tables::terminal_text(results.groups);

@@ -22,7 +22,7 @@ struct ExperimentDescription {
 // Throws Error naming the file.
 void write_description(const std::filesystem::path& folder, const ExperimentDescription& description);
 
-// Did `relight run` write this folder (it holds table.csv), rather than `relight compare`?
+// Did `relight run` write this folder (it holds experiment.json, or of earlier versions table.csv), rather than `relight compare`?
 bool is_experiment_folder(const std::filesystem::path& folder);
 
 enum class RunPages { missing, all };  // those that are older than their images, or every one

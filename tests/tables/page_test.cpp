@@ -78,7 +78,11 @@ TEST(ExperimentPage, IsMadeOfFailuresAloneAndWithoutADescription) {
 TEST(ExperimentFolder, IsToldFromThatOfAComparison) {
   const PageFolder folder(planted_methods());
   EXPECT_TRUE(is_experiment_folder(folder.path));
+  // Interrupted: the table is written at the end.
   fs::remove(folder.path / "table.csv");
+  EXPECT_TRUE(is_experiment_folder(folder.path));
+  EXPECT_TRUE(has(folder.page(), "Experiment"));
+  fs::remove(folder.path / "experiment.json");
   EXPECT_FALSE(is_experiment_folder(folder.path));
 }
 
