@@ -6,10 +6,9 @@
 Reads table.csv of `relight run experiments/clustered_gather_figure2.toml`. The paper shows pictures, no errors.
 """
 
-import argparse
 import sys
 
-from figure_tools import COLOURS, good, number, plain, pyplot, read, save
+from figure_tools import COLOURS, arguments, good, number, plain, pyplot, read, require_varying, save
 
 NEEDED = ["view_clusters", "gather_clusters"]
 BARS = (("relative_percent", "all pixels", COLOURS[0]), ("edges_out_percent", "without edges", COLOURS[2]),
@@ -27,14 +26,9 @@ def name(row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("csv", help="table.csv of experiments/clustered_gather_figure2.toml")
-    parser.add_argument("out", help="the SVG to write")
-    options = parser.parse_args()
+    options = arguments(__doc__, "clustered_gather_figure2")
     rows = good(read(options.csv), ["relative_percent", "relight_ms"], options.csv)
-    missing = [k for k in NEEDED if f"clustered_gather.{k}" not in rows[0]]
-    if missing:
-        sys.exit(f"{options.csv}: {', '.join(missing)} did not vary: run experiments/clustered_gather_figure2.toml")
+    require_varying(rows, [f"clustered_gather.{k}" for k in NEEDED], options.csv, "clustered_gather_figure2")
     runs = {name(row): row for row in rows}
     wanted = ["no clustering", "gather samples\nclustered", "both clustered,\ntwo phase"]
     absent = [w.replace("\n", " ") for w in wanted if w not in runs]

@@ -6,10 +6,9 @@
 Reads table.csv of `relight run experiments/clustered_gather_sweeps.toml`.
 """
 
-import argparse
 import sys
 
-from figure_tools import COLOURS, good, number, plain, plain_numbers, pyplot, read, save
+from figure_tools import COLOURS, arguments, good, number, plain, plain_numbers, pyplot, read, require_varying, save
 
 # Knob -> the paper's value (section Results).
 PAPER = {"directions": 2000, "gather_clusters": 120, "view_clusters": 40000, "neighbours": 10}
@@ -23,14 +22,9 @@ def sweep(rows, knob):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("csv", help="table.csv of experiments/clustered_gather_sweeps.toml")
-    parser.add_argument("out", help="the SVG to write")
-    options = parser.parse_args()
+    options = arguments(__doc__, "clustered_gather_sweeps")
     rows = good(read(options.csv), ["relative_percent", "relight_ms"], options.csv)
-    missing = [k for k in PAPER if f"clustered_gather.{k}" not in rows[0]]
-    if missing:
-        sys.exit(f"{options.csv}: {', '.join(missing)} did not vary: run experiments/clustered_gather_sweeps.toml")
+    require_varying(rows, [f"clustered_gather.{k}" for k in PAPER], options.csv, "clustered_gather_sweeps")
     sweeps = {knob: sweep(rows, knob) for knob in PAPER}
     short = [knob for knob, runs in sweeps.items() if len(runs) < 2]
     if short:

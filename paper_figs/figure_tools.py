@@ -1,5 +1,6 @@
 """What the scripts of this folder have in common: reading table.csv of `relight run`, and writing an SVG."""
 
+import argparse
 import csv
 import os
 import sys
@@ -26,6 +27,21 @@ def read(file):
     if not rows or "relative_percent" not in rows[0] or "relight_ms" not in rows[0]:
         sys.exit(f"{file}: not a table.csv of `relight run`: it has no errors or no times")
     return rows
+
+
+def arguments(doc, experiment):
+    """csv and out; `doc` is the script's own."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("csv", help=f"table.csv of experiments/{experiment}.toml")
+    parser.add_argument("out", help="the SVG to write")
+    return parser.parse_args()
+
+
+def require_varying(rows, knobs, file, experiment):
+    """table.csv has columns for the knobs that vary; exits if one of these does not."""
+    missing = [k for k in knobs if k not in rows[0]]
+    if missing:
+        sys.exit(f"{file}: {', '.join(missing)} did not vary: run experiments/{experiment}.toml")
 
 
 def number(row, column):

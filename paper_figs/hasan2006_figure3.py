@@ -7,10 +7,8 @@ Reads table.csv of `relight run experiments/figure3.toml`. The paper prints two 
 its picture of the other numbers of coefficients has no errors.
 """
 
-import argparse
-import sys
-
-from figure_tools import COLOURS, MARKERS, distinct, good, number, plain, plain_numbers, pyplot, read, save, scene_name
+from figure_tools import (COLOURS, MARKERS, arguments, distinct, good, number, plain, plain_numbers, pyplot, read,
+                          require_varying, save, scene_name)
 
 X = "direct_to_indirect.coefficients"
 PAPER = {"relative_percent": 13.6, "edges_out_percent": 5.4}
@@ -18,13 +16,9 @@ TITLES = {"relative_percent": "all pixels", "edges_out_percent": "without edges"
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("csv", help="table.csv of experiments/figure3.toml")
-    parser.add_argument("out", help="the SVG to write")
-    options = parser.parse_args()
+    options = arguments(__doc__, "figure3")
     rows = read(options.csv)
-    if X not in rows[0]:
-        sys.exit(f"{options.csv}: the number of coefficients does not vary: run experiments/figure3.toml")
+    require_varying(rows, [X], options.csv, "figure3")
     rows = good(rows, [X, *TITLES], options.csv)
     series = distinct(rows, lambda row: (scene_name(row), row["lights"], row["preset"]))
     figure, panels = pyplot.subplots(1, len(TITLES), figsize=(3.3 * len(TITLES), 3.0))

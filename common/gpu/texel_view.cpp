@@ -9,7 +9,10 @@ namespace {
 
 GLenum internal(TexelView::Format format) {
   using enum TexelView::Format;
-  return format == rgba32f ? GL_RGBA32F : format == rgba32ui ? GL_RGBA32UI : format == rgb32ui ? GL_RGB32UI : GL_R32UI;
+  return format == rgba32f    ? GL_RGBA32F
+         : format == rgba32ui ? GL_RGBA32UI
+         : format == rgb32ui  ? GL_RGB32UI
+                              : GL_R32UI;
 }
 
 int64_t texel_bytes(TexelView::Format format) {

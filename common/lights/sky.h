@@ -19,8 +19,9 @@ struct SkySettings {
   bool operator==(const SkySettings&) const = default;
 };
 
-// The range in which the published fit gives linear sRGB that is positive everywhere, so that nothing needs to
-// be clamped: below 2 degrees the sky beside the sun is redder than sRGB holds (tests/lights/sky_test.cpp).
+// The range in which the published fit gives linear sRGB that is positive everywhere, so that nothing needs
+// to be clamped: below 2 degrees the sky beside the sun is redder than sRGB holds
+// (tests/lights/sky_test.cpp).
 inline constexpr float least_turbidity = 2.0f, largest_turbidity = 10.0f;
 inline constexpr float least_elevation_degrees = 2.0f;
 

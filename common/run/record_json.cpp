@@ -164,6 +164,12 @@ RunRecord record_from(const Json& json) {
 
 }  // namespace
 
+int64_t prepared_bytes(const RunRecord& record) {
+  int64_t bytes = 0;
+  for (const auto& [artefact, n] : record.memory_bytes) bytes += artefact == "process_peak" ? 0 : n;
+  return bytes;
+}
+
 std::string record_to_json(const RunRecord& record) {
   Json json = {{"scene", record.scene},
                {"view", record.view},

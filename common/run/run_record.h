@@ -69,6 +69,9 @@ struct RunRecord {
   Provenance provenance;
 };
 
+// Sum of memory_bytes without the process's peak: what the method keeps to relight.
+int64_t prepared_bytes(const RunRecord& record);
+
 // One line of JSON without a newline. JSON has no NaN or infinity: they are written as the strings "nan",
 // "inf" and
 // "-inf", and read back as numbers.

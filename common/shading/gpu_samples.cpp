@@ -57,8 +57,8 @@ Layout layout_of(SampleFormat format) {
 // Samples that one dispatch can write (16 bytes each) and one view can show. A multiple of 8192 keeps every
 // range aligned, that of the visibility bits too.
 int64_t largest_slab(int64_t texels) {
-  const int64_t fit =
-      std::min(gpu::Context::current()->max_storage_block_bytes() / 16, gpu::TexelView::max_texels() / texels);
+  const int64_t fit = std::min(gpu::Context::current()->max_storage_block_bytes() / 16,
+                               gpu::TexelView::max_texels() / texels);
   return std::max<int64_t>(fit / 8192, 1) * 8192;
 }
 

@@ -77,8 +77,8 @@ void add_bytes(const SurfaceSample& s, const glm::vec4& frame, std::vector<uint3
     const float whole = s.shading_normal[i] > 0.0f ? std::ceil(at) : std::floor(at);
     return static_cast<uint32_t>(std::clamp(whole, 0.0f, 65535.0f));
   };
-  words.insert(words.end(), {place(0) | place(1) << 16,
-                             place(2) | octahedral_bytes(s.shading_normal) << 16, shared_exponent(s.diffuse)});
+  words.insert(words.end(), {place(0) | place(1) << 16, place(2) | octahedral_bytes(s.shading_normal) << 16,
+                             shared_exponent(s.diffuse)});
 }
 
 // Of the valid samples.

@@ -15,6 +15,7 @@
 
 namespace relight {
 
+// The shader knows them by their order: FORMAT of direct_lighting.glsl.
 enum class SampleFormat {
   full,   // 64 bytes: 32-bit floats, two normals, glossy part
   half,   // nine 16-bit floats in 20 bytes

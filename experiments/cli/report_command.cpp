@@ -23,7 +23,7 @@ void add_report_command(CLI::App& app, Action& action) {
     action = [folder] {
       if (!std::filesystem::is_directory(*folder)) usage_fail("'{}' is not a folder", *folder);
       if (is_experiment_folder(*folder))
-        write_experiment_page(*folder, make_all_methods(), RunPages::all);
+        write_experiment_page(*folder, RunPages::all);
       else
         write_report(*folder);
       fmt::print("{}\n", (std::filesystem::path(*folder) / "index.html").string());

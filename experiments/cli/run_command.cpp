@@ -64,7 +64,7 @@ int run(RunOptions options) {
   const ExperimentResult result =
       options.jobs > 1 ? run_in_workers(options, list, out) : run_experiment(list, out, options.again);
   if (std::filesystem::exists(out / "records.jsonl"))
-    fmt::print("{}", write_experiment_page(out, methods, RunPages::missing));
+    fmt::print("{}", write_experiment_page(out, RunPages::missing));
   fmt::print("\npage    {}\nrecords {}\ntable   {}\nimages  {}\n", (out / "index.html").string(),
              (out / "records.jsonl").string(), (out / "table.csv").string(), (out / "*" / "*.exr").string());
   for (const std::string& failure : result.failures) fmt::print("FAILED  {}\n", failure);

@@ -25,7 +25,7 @@ constexpr const char* lesson =
     "again. "
     "Exit code 1 if no setting keeps the bounds, or the choice misses the error under a lighting that was "
     "not searched.\n\n"
-    "Example: relight tune --scene cornell --lights near --view 160x120 --error 5% --method "
+    "Example: relight tune --scene cornell --lights omni --view 160x120 --error 2% --method "
     "direct_to_indirect "
     "--out out/tune. See docs/tune.md";
 

@@ -41,6 +41,18 @@ const ReferenceImages& Comparison::reference(const MethodPlan& method, StageLog&
   return references_.back();
 }
 
+const ReferenceImages* Comparison::add_run(RunRecord& record, const MethodPlan& method,
+                                           const MethodRun& run) {
+  add_costs(record, run, session_);
+  if (!run.failure.empty()) return nullptr;
+  StageLog log;
+  const ReferenceImages& made = reference(method, log);
+  add_errors(record, run.relit, made, session_);
+  for (const auto* warnings : {&made.warnings, &log.warnings()})
+    record.warnings.insert(record.warnings.end(), warnings->begin(), warnings->end());
+  return &made;
+}
+
 StartedRun Comparison::start(const MethodPlan& asked) {
   StartedRun started{asked, {}, nullptr};
   MethodPlan method = asked;
@@ -73,18 +85,12 @@ StartedRun Comparison::start(const MethodPlan& asked) {
 RunRecord Comparison::finish(StartedRun started, const std::filesystem::path& folder) {
   RunRecord& record = started.record;
   if (!started.run) return std::move(record);
-  const MethodPlan& method = started.run->plan();
   const MethodRun run = started.run->finish();
-  add_costs(record, run, session_);
-  if (!run.failure.empty()) return std::move(record);
-  StageLog reference_log;
-  const ReferenceImages& made = reference(method, reference_log);
-  add_errors(record, run.relit, made, session_);
-  for (const auto* warnings : {&made.warnings, &reference_log.warnings()})
-    record.warnings.insert(record.warnings.end(), warnings->begin(), warnings->end());
+  const ReferenceImages* made = add_run(record, started.run->plan(), run);
+  if (!made) return std::move(record);
   if (record.effect_plan) check_effects_of(started.asked, run, record);
   try {
-    write_run_images(folder, record.method, run.relit, made.result,
+    write_run_images(folder, record.method, run.relit, made->result,
                      {{"relight.scene", record.scene},
                       {"relight.lighting", record.lighting},
                       {"relight.method", record.method},
@@ -101,15 +107,10 @@ RunRecord Comparison::run(const MethodPlan& method, const std::filesystem::path&
   return finish(std::move(started), folder);
 }
 
-RunRecord Comparison::measure(const MethodPlan& method, ArtefactCache& cache) {
+RunRecord Comparison::measure(const MethodPlan& method) {
   RunRecord record = describe_run(plan_, method, session_);
-  const MethodRun run = run_method(method, session_, {session_.buffer(), cache}, plan_.repeats);
-  add_costs(record, run, session_);
-  if (!run.failure.empty()) return record;
-  StageLog reference_log;
-  add_errors(record, run.relit, reference(method, reference_log), session_);
-  record.warnings.insert(record.warnings.end(), reference_log.warnings().begin(),
-                         reference_log.warnings().end());
+  const MethodRun run = run_method(method, session_, plan_.repeats);
+  add_run(record, method, run);
   return record;
 }
 

@@ -46,12 +46,13 @@ class Comparison {
   // `folder`. A method that fails makes a record with failed_stages; OutputError if the images cannot be
   // written.
   RunRecord finish(StartedRun started, const std::filesystem::path& folder);
-  // The record alone, without effect planning and images: for searches over many settings. `cache`: of precomputed
-  // data; the session's keeps the reference.
-  RunRecord measure(const MethodPlan& method, ArtefactCache& cache);
+  // The record alone, without effect planning and images: for searches over many settings.
+  RunRecord measure(const MethodPlan& method);
 
  private:
   const ReferenceImages& reference(const MethodPlan& method, StageLog& log);
+  // Costs, and errors against the reference that it returns; null: the run failed.
+  const ReferenceImages* add_run(RunRecord& record, const MethodPlan& method, const MethodRun& run);
   void check_effects_of(const MethodPlan& asked, const MethodRun& run, RunRecord& record);
 
   const ComparePlan& plan_;

@@ -20,12 +20,6 @@ std::string floor_percent(const std::optional<ErrorReport>& errors) {
   return errors ? fmt::format("{:.2f}", 100.0 * errors->noise_floor.relative) : "-";
 }
 
-double prepared_megabytes(const RunRecord& record) {
-  int64_t bytes = 0;
-  for (const auto& [name, n] : record.memory_bytes) bytes += name == "process_peak" ? 0 : n;
-  return static_cast<double>(bytes) * 1e-6;
-}
-
 std::string notes(const RunRecord& record) {
   std::string text = fmt::format("{}: compared on {}\n", record.method, record.reference_paths);
   if (record.light_paths != record.reference_paths) {
@@ -55,7 +49,7 @@ std::string summary_text(const std::vector<RunRecord>& records) {
                    percent(r.errors_indirect, &MetricSet::relative), floor_percent(r.errors),
                    percent(r.errors, &MetricSet::bias), ran ? fmt::format("{:.2f}", r.precompute_s) : "-",
                    ran ? fmt::format("{:.1f}", r.relight_ms.median) : "-",
-                   fmt::format("{:.1f}", prepared_megabytes(r))});
+                   fmt::format("{:.1f}", 1e-6 * static_cast<double>(prepared_bytes(r)))});
   }
   std::string text = table.to_string(1) + "\n";
   for (const RunRecord& record : records) text += notes(record);

@@ -16,8 +16,7 @@ constexpr size_t most_choices = 65536;
 bool carries(const LightPaths& paths, const PathClass& c) {
   if (c.bounces < 0) return c.end == LightEnd::environment ? paths.environment : paths.emission;
   if (c.bounces > 0) {
-    const int last =
-        c.end == LightEnd::environment ? paths.last_environment_bounce() : paths.max_bounces;
+    const int last = c.end == LightEnd::environment ? paths.last_environment_bounce() : paths.max_bounces;
     if (c.bounces < paths.min_bounces || c.bounces > last || c.or_more) return false;
     if (c.glossy_at_eye && !paths.glossy_at_eye) return false;
     if (c.glossy_interior && !paths.glossy_interior) return false;

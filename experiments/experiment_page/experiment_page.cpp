@@ -9,27 +9,11 @@
 #include "experiments/experiment_page/page_parts.h"
 #include "experiments/report/html.h"
 #include "experiments/report/sections.h"
+#include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/tables/paper_numbers.h"
 
 namespace relight {
-
-tables::PrecomputeKey precompute_key(const MethodList& methods) {
-  std::map<std::string, KnobTable> knobs;
-  for (const auto& method : methods) knobs[method->name()] = method->knobs();
-  return [knobs](const RunRecord& r) {
-    std::string key =
-        fmt::format("{}\n{}\n{}\n{}\n{}", r.scene_hash, r.view, r.seed, r.method, r.light_paths);
-    const auto table = knobs.find(r.method);
-    for (const auto& [name, value] : r.knobs) {
-      const auto is_this = [&](const Knob& k) { return k.name == name && k.phase == KnobPhase::relight; };
-      const bool relight =
-          table != knobs.end() && std::any_of(table->second.begin(), table->second.end(), is_this);
-      if (!relight) key += fmt::format("\n{}={}", name, value);
-    }
-    return key;
-  };
-}
 
 namespace {
 
@@ -88,15 +72,14 @@ std::string page_text(const ExperimentDescription& about, const tables::Results&
 
 }  // namespace
 
-std::string write_experiment_page(const std::filesystem::path& folder, const MethodList& methods,
-                                  RunPages run_pages) {
+std::string write_experiment_page(const std::filesystem::path& folder, RunPages run_pages) {
   const std::filesystem::path file = folder / "records.jsonl";
   if (!std::filesystem::exists(file)) fail("'{}' holds no records.jsonl", folder.string());
   const RecordFile read = read_records(file);
   if (read.records.empty()) fail("'{}' holds no readable record", file.string());
   tables::Results results;
-  results.records = tables::latest_of_each(read.records);
-  results.groups = tables::make_groups(results.records, precompute_key(methods));
+  results.records = latest_of_each(read.records);
+  results.groups = tables::make_groups(results.records);
   results.links = page::write_run_pages(folder, results.records, run_pages);
   const ExperimentDescription about = page::read_description(folder);
   const std::vector<tables::Table> papers = paper_tables(results.records, about);

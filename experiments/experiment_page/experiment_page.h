@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/method_list.h"
 #include "experiments/tables/points.h"
 
 namespace relight {
@@ -22,19 +21,15 @@ struct ExperimentDescription {
 // Throws Error naming the file.
 void write_description(const std::filesystem::path& folder, const ExperimentDescription& description);
 
-// Did `relight run` write this folder (it holds experiment.json, or of earlier versions table.csv), rather than `relight compare`?
+// Did `relight run` write this folder (it holds experiment.json, or of earlier versions table.csv), rather
+// than `relight compare`?
 bool is_experiment_folder(const std::filesystem::path& folder);
 
 enum class RunPages { missing, all };  // those that are older than their images, or every one
 
 // Writes into the folder: index.html, table.json, tables.md, tables.tex, and index.html of each run that has
-// images. Returns the short form for a terminal. The knob tables of `methods` tell which runs share prepared
-// data. Throws Error if there is no readable record or a file cannot be written.
-std::string write_experiment_page(const std::filesystem::path& folder, const MethodList& methods,
-                                  RunPages run_pages);
-
-// Runs with the same scene, view, seed, light paths and precompute knobs; all knobs of a method that is not
-// in the list.
-tables::PrecomputeKey precompute_key(const MethodList& methods);
+// images. Returns the short form for a terminal. Throws Error if there is no readable record or a file cannot
+// be written.
+std::string write_experiment_page(const std::filesystem::path& folder, RunPages run_pages);
 
 }  // namespace relight

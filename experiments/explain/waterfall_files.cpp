@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/explain/explain.h"
+#include "experiments/options/csv_cell.h"
 
 namespace relight {
 namespace {
@@ -22,18 +23,12 @@ std::string percents(const Measures& measures) {
 
 const Measures nothing = {NAN, NAN, NAN};
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string csv_line(const std::string& kind, const WaterfallRow& row, bool alone) {
-  return fmt::format("{},{},{}{}{}{}{}{},{},{},{}\n", kind, quoted(row.name), row.active ? "yes" : "no",
+  return fmt::format("{},{},{}{}{}{}{}{},{},{},{}\n", kind, csv_cell(row.name), row.active ? "yes" : "no",
                      percents(row.points), percents(row.half_width), percents(row.change),
                      percents(alone ? row.alone_points : nothing),
                      percents(alone ? row.alone_change : nothing), cell(row.precompute_saved_s),
-                     cell(row.relight_saved_ms), quoted(row.sentence));
+                     cell(row.relight_saved_ms), csv_cell(row.sentence));
 }
 
 // JSON has no NaN.

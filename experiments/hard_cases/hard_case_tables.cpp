@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/hard_cases/run_hard_cases.h"
+#include "experiments/options/csv_cell.h"
 #include "experiments/options/text_table.h"
 
 namespace relight {
@@ -14,12 +15,6 @@ namespace {
 
 using hard::Figure;
 using Json = nlohmann::ordered_json;
-
-std::string csv_cell(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 std::string markdown_cell(const std::string& text) {
   std::string out;

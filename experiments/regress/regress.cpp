@@ -1,12 +1,11 @@
 #include "experiments/regress/regress.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "experiments/run/record_of.h"
+#include "experiments/tables/points.h"
 #include "experiments/usage_error.h"
 
 namespace relight {
@@ -32,32 +31,8 @@ bool of_one_run(const RunRecord& a, const RunRecord& b) {
          common_knobs_agree(a, b);
 }
 
-using KnobsOfMethods = std::map<std::string, std::set<std::string>>;
-
-// Of each method the knobs that have more than one value among the records.
-KnobsOfMethods varying_knobs(const std::vector<RunRecord>& published, const std::vector<RunRecord>& fresh) {
-  std::map<std::string, std::map<std::string, std::set<std::string>>> values;
-  for (const auto* records : {&published, &fresh})
-    for (const RunRecord& r : *records)
-      for (const auto& [knob, value] : r.knobs) values[r.method][knob].insert(value);
-  KnobsOfMethods varying;
-  for (const auto& [method, knobs] : values)
-    for (const auto& [knob, all] : knobs)
-      if (all.size() > 1) varying[method].insert(knob);
-  return varying;
-}
-
-std::string label(const RunRecord& r, const KnobsOfMethods& varying, bool with_seed) {
-  std::string text = fmt::format("{} {} {}", base_name(r.scene), base_name(r.lighting), r.method);
-  if (!r.preset.empty() && r.preset != "paper") text += " " + r.preset;
-  if (r.effect_plan) text += fmt::format(" tolerance={:.6g}", r.effect_plan->tolerance);
-  const auto knobs = varying.find(r.method);
-  if (knobs != varying.end())
-    for (const std::string& knob : knobs->second)
-      if (const auto value = r.knobs.find(knob); value != r.knobs.end())
-        text += fmt::format(" {}={}", knob, value->second);
-  if (with_seed) text += fmt::format(" seed={}", r.seed);
-  return text;
+std::string label(const RunRecord& r, const std::string& settings) {
+  return fmt::format("{} {} {} {}", base_name(r.scene), base_name(r.lighting), r.method, settings);
 }
 
 Verdict verdict_of(const RunComparison& run) {
@@ -104,23 +79,21 @@ Regression compare_results(const std::string& name, const std::vector<RunRecord>
                            const std::vector<RunRecord>& fresh, const Tolerances& tolerances) {
   Regression out;
   out.name = name;
+  const std::vector<std::string> names = tables::labels(published), fresh_names = tables::labels(fresh);
   std::vector<bool> used(fresh.size(), false);
-  for (const RunRecord& record : published) {
+  for (size_t p = 0; p < published.size(); ++p) {
     RunComparison run;
-    run.published = record;
+    run.run = label(published[p], names[p]);
+    run.published = published[p];
     for (size_t i = 0; i < fresh.size() && !run.fresh; ++i)
-      if (!used[i] && of_one_run(record, fresh[i])) run.fresh = fresh[i], used[i] = true;
-    if (run.fresh) run.changes = find_changes(record, *run.fresh, tolerances);
+      if (!used[i] && of_one_run(published[p], fresh[i])) run.fresh = fresh[i], used[i] = true;
+    if (run.fresh) run.changes = find_changes(published[p], *run.fresh, tolerances);
     out.runs.push_back(std::move(run));
   }
   for (size_t i = 0; i < fresh.size(); ++i)
-    if (!used[i]) out.runs.push_back({"", std::nullopt, fresh[i], {}, Verdict::added});
-  const KnobsOfMethods varying = varying_knobs(published, fresh);
-  std::set<uint64_t> seeds;
-  for (const auto* records : {&published, &fresh})
-    for (const RunRecord& r : *records) seeds.insert(r.seed);
+    if (!used[i])
+      out.runs.push_back({label(fresh[i], fresh_names[i]), std::nullopt, fresh[i], {}, Verdict::added});
   for (RunComparison& run : out.runs) {
-    run.run = label(run.published ? *run.published : *run.fresh, varying, seeds.size() > 1);
     run.verdict = verdict_of(run);
     note_machines(run, out.notes);
   }

@@ -19,12 +19,6 @@ std::string plain_cell(const std::optional<ErrorReport>& errors, double MetricSe
                 : "<td class=num>&ndash;</td>";
 }
 
-int64_t prepared_bytes(const RunRecord& record) {
-  int64_t bytes = 0;
-  for (const auto& [name, n] : record.memory_bytes) bytes += name == "process_peak" ? 0 : n;
-  return bytes;
-}
-
 std::string cost_cells(const RunRecord& r) {
   if (r.relight_ms.repeats == 0)
     return "<td class=num>&ndash;</td><td class=num>&ndash;</td><td class=num>&ndash;</td>";

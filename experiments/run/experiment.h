@@ -31,7 +31,7 @@ struct Experiment {
   int reference_samples = 128;
   int repeats = 0;
   std::vector<std::filesystem::path> paper_numbers;  // files of a paper's figures, to stand beside ours
-  double time_limit_s = 0.0;  // > 0: of a run's own work, see ComparePlan
+  double time_limit_s = 0.0;                         // > 0: of a run's own work, see ComparePlan
   std::vector<RunGroup> groups;
 };
 

@@ -61,12 +61,6 @@ double setup_s(const RunRecord& record) {
   return sum;
 }
 
-int64_t prepared_bytes(const RunRecord& record) {
-  int64_t sum = 0;
-  for (const auto& [artefact, n] : record.memory_bytes) sum += artefact == "process_peak" ? 0 : n;
-  return sum;
-}
-
 // Tracing the reference anew, by the record of the same scene, or any, that traced one.
 double reference_s(const std::vector<RunRecord>& records, const PlannedRun& run) {
   const RunRecord* best = nullptr;

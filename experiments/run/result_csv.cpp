@@ -6,19 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiments/options/csv_cell.h"
 #include "experiments/run/run_experiment.h"
 
 namespace relight {
 namespace {
 
 using Row = std::map<std::string, std::string>;
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 // Knobs that have more than one value among the records of their method.
 std::set<std::string> varying_knobs(const std::vector<RunRecord>& records) {
@@ -48,7 +42,7 @@ class Table {
       std::vector<std::string> cells;
       for (const std::string& column : columns_) {
         const auto cell = row.find(column);
-        cells.push_back(cell == row.end() ? "" : quoted(cell->second));
+        cells.push_back(cell == row.end() ? "" : csv_cell(cell->second));
       }
       out += fmt::format("{}\n", fmt::join(cells, ","));
     }

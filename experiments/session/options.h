@@ -14,9 +14,9 @@ struct SessionOptions {
   uint64_t seed = 1;
   int threads = 0;  // 0: all cores
   bool no_cache = false;
-  std::string cache_folder;  // empty: ArtefactCache::default_folder()
-  bool quiet = false;        // no progress on standard error
-  double time = 0.0;         // of an animated lighting [s]
+  std::string cache_folder;     // empty: ArtefactCache::default_folder()
+  bool quiet = false;           // no progress on standard error
+  double time = 0.0;            // of an animated lighting [s]
   bool shared_machine = false;  // other runs are at work at the same time: goes into the records
 };
 

@@ -65,12 +65,6 @@ Measured relight_ms_of(const RunRecord& record) {
   return t.repeats > 0 ? Measured{t.median, t.min, t.max} : Measured{};
 }
 
-double prepared_bytes_of(const RunRecord& record) {
-  int64_t bytes = 0;
-  for (const auto& [name, n] : record.memory_bytes) bytes += name == "process_peak" ? 0 : n;
-  return static_cast<double>(bytes);
-}
-
 std::string cost_text(CostKind cost, double value) {
   if (!std::isfinite(value)) return "-";
   if (cost == CostKind::memory) return value == 0 ? "0" : three_digits(1e-6 * value) + " MB";

@@ -37,8 +37,6 @@ double floor_of(const RunRecord& record, ErrorKind error);
 
 // Median, smallest and largest repeat [ms]; not known if nothing was relit.
 Measured relight_ms_of(const RunRecord& record);
-// Prepared data, without the peak of the process [bytes].
-double prepared_bytes_of(const RunRecord& record);
 
 // "12.5 ms", "58.2 MB", "70.5 s"; "3.27 %"; "-" if not finite.
 std::string cost_text(CostKind cost, double value);

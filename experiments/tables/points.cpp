@@ -2,32 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace relight::tables {
 namespace {
-
-// Is the precompute time that of loading what another run had made? A record that holds the time of making
-// all the same leaves the loading out of it, so that its stages add up to more.
-bool from_cache(const RunRecord& record) {
-  const auto hits = record.counters.find("cache_hits");
-  if (hits == record.counters.end() || hits->second == 0) return false;
-  double stages = 0;
-  for (const auto& [name, seconds] : record.precompute_stages) stages += seconds;
-  return record.precompute_s >= stages;
-}
-
-// Seconds by key, of runs that found nothing in the cache.
-std::map<std::string, double> made_in(const std::vector<RunRecord>& records, const PrecomputeKey& key) {
-  std::map<std::string, double> seconds;
-  for (const RunRecord& r : records)
-    if (!from_cache(r) && r.relight_ms.repeats > 0) seconds[key(r)] = r.precompute_s;
-  return seconds;
-}
 
 void add_floor(Group& group, const RunRecord& record) {
   for (const ErrorKind error : all_errors) {
@@ -64,8 +44,7 @@ std::string failure_of(const RunRecord& record) {
   return "";
 }
 
-std::vector<Group> make_groups(const std::vector<RunRecord>& records, const PrecomputeKey& same_data) {
-  const std::map<std::string, double> made = made_in(records, same_data);
+std::vector<Group> make_groups(const std::vector<RunRecord>& records) {
   const std::vector<std::string> names = labels(records);
   // A run that failed early has no paths; it stands with the first group of its scene, lighting and view.
   std::vector<Group> groups;
@@ -83,15 +62,9 @@ std::vector<Group> make_groups(const std::vector<RunRecord>& records, const Prec
     Point point;
     point.record = i, point.method = r.method, point.label = names[i], point.failure = failure_of(r);
     for (const ErrorKind e : all_errors) point.errors[static_cast<size_t>(e)] = error_of(r, e);
-    const double bytes = prepared_bytes_of(r);
-    double precompute = r.precompute_s;
-    if (from_cache(r)) {
-      const auto maker = made.find(same_data(r));
-      point.shared_precompute = maker != made.end();
-      precompute = maker != made.end() ? maker->second : std::numeric_limits<double>::quiet_NaN();
-    }
+    const auto bytes = static_cast<double>(prepared_bytes(r));
     point.costs = {relight_ms_of(r), Measured{bytes, bytes, bytes},
-                   Measured{precompute, precompute, precompute}};
+                   Measured{r.precompute_s, r.precompute_s, r.precompute_s}};
     Group& group = group_of(r);
     if (point.failure.empty()) add_floor(group, r);
     group.points.push_back(std::move(point));
@@ -105,22 +78,6 @@ std::vector<Group> make_groups(const std::vector<RunRecord>& records, const Prec
       if (&a != &b && a.scene == b.scene && a.lighting == b.lighting && a.view == b.view)
         a.named_by_paths = true;
   return groups;
-}
-
-std::vector<RunRecord> latest_of_each(const std::vector<RunRecord>& records) {
-  std::vector<RunRecord> latest;
-  std::map<std::string, size_t> place;
-  for (const RunRecord& r : records) {
-    std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", r.scene, r.lighting, r.view, r.method, r.seed);
-    for (const auto& [knob, value] : r.knobs) key += "\n" + knob + "=" + value;
-    if (r.effect_plan) key += fmt::format("\ntolerance={}", r.effect_plan->tolerance);
-    const auto [at, is_new] = place.try_emplace(key, latest.size());
-    if (is_new)
-      latest.push_back(r);
-    else
-      latest[at->second] = r;
-  }
-  return latest;
 }
 
 }  // namespace relight::tables

@@ -1,7 +1,6 @@
 // From records to points that can be compared: those of one scene, lighting, view and set of light paths.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@ struct Point {
   std::string label;                      // preset and settings that tell it from the method's other runs
   std::array<Measured, 3> errors, costs;  // by ErrorKind and by CostKind [ms, bytes, s]
   std::string failure;                    // why it must not be compared; empty: it may
-  bool shared_precompute = false;  // its data came from the cache; the time is that of the run that made them
 
   const Measured& operator[](ErrorKind e) const { return errors[static_cast<size_t>(e)]; }
   const Measured& operator[](CostKind c) const { return costs[static_cast<size_t>(c)]; }
@@ -39,16 +37,8 @@ struct Group {
   std::string title() const;  // "colonnade, spot, 640x480"; with the light paths if they tell it from another
 };
 
-// Runs with equal keys prepare the same data.
-using PrecomputeKey = std::function<std::string(const RunRecord&)>;
-
-// In the order of the records. The precompute time of a run whose data were in the artefact cache says
-// nothing about the method: it is replaced by that of a run with the same key that made them, and is not
-// known if there is none.
-std::vector<Group> make_groups(const std::vector<RunRecord>& records, const PrecomputeKey& same_data);
-
-// Of several records of one run the last; in the order in which the runs were first done.
-std::vector<RunRecord> latest_of_each(const std::vector<RunRecord>& records);
+// In the order of the records.
+std::vector<Group> make_groups(const std::vector<RunRecord>& records);
 
 // What tells each record from others of its method: preset, tolerance, knobs, seed. A knob is left out where
 // it has the value that most records of method and preset have.

@@ -46,9 +46,6 @@ std::vector<std::string> remarks(const Point& point, const RunRecord& record, co
   if (point[ErrorKind::relative].low <= floor_of(record, ErrorKind::relative))
     add("its error may be the reference's noise alone");
   if (point[CostKind::relight].known()) add(slowness_remark(point, group));
-  if (point.shared_precompute)
-    add("prepared data were in the cache: precompute time of the run that made them");
-  if (!point[CostKind::precompute].known()) add("prepared data were in the cache: precompute time not known");
   return all;
 }
 

@@ -3,8 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "common/run/run_record.h"
@@ -19,21 +18,16 @@ class SettingRecords {
   explicit SettingRecords(const TunePlan& plan);
 
   // The record of this setting on the session's scene, view and lighting: an earlier one, or measured now and
-  // appended. Where precompute time counts, data from the cache whose time is not known is computed afresh.
+  // appended.
   const RunRecord& of(const MethodPlan& method, Session& session, Comparison& comparison);
-  // As outcome_of(), with the precompute time of another record of the same data where this one loaded them.
-  Outcome outcome(const RunRecord& record, const MethodPlan& method) const;
   int64_t measured_now() const { return measured_now_; }
 
  private:
   const RunRecord* find(const MethodPlan& method, const Session& session) const;
-  bool time_known(const RunRecord& record, const MethodPlan& method) const;
-  void keep(RunRecord record, const MethodPlan& method);
 
   const TunePlan& plan_;
   std::filesystem::path file_;
   std::vector<std::unique_ptr<RunRecord>> records_;
-  std::map<std::string, double> precompute_s_;  // by scene, lighting, method and precompute knobs
   int64_t measured_now_ = 0;
 };
 

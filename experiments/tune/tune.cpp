@@ -74,7 +74,7 @@ class Tuner {
     tell(like.method->name(), why, budget);
     ++runs_;
     const RunRecord& record = records_.of(method, session_, comparison_);
-    const Outcome outcome = records_.outcome(record, method);
+    const Outcome outcome = outcome_of(record, plan_.metric);
     if (!outcome.failure.empty()) fmt::print(stderr, "FAILED {}\n", outcome.failure);
     result.tried.push_back({like.method->name(), why, changed_knobs(method), outcome, record.command});
     if (result.provenance.commit.empty()) result.provenance = record.provenance;
@@ -122,14 +122,15 @@ Verification verify(const TunePlan& plan, const MethodPlan& method, const std::s
   compare.session = options;
   ReferenceStore references;
   Comparison comparison(compare, session, references);
-  const Outcome outcome = records.outcome(records.of(method, session, comparison), method);
+  const Outcome outcome = outcome_of(records.of(method, session, comparison), plan.metric);
   return {lights, outcome, error_verdict(outcome, plan.bounds.error)};
 }
 
 }  // namespace
 
 BoundVerdict error_verdict(const Outcome& outcome, double bound) {
-  if (!outcome.failure.empty() || !(outcome.error - outcome.half_width <= bound)) return BoundVerdict::not_met;
+  if (!outcome.failure.empty() || !(outcome.error - outcome.half_width <= bound))
+    return BoundVerdict::not_met;
   return outcome.error + outcome.half_width <= bound ? BoundVerdict::met : BoundVerdict::open;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "experiments/options/csv_cell.h"
 #include "experiments/options/text_table.h"
 #include "experiments/tune/tune.h"
 
@@ -20,12 +21,6 @@ std::string number(double value) { return std::isnan(value) ? "" : fmt::format("
 
 std::string percent(const Outcome& o) {
   return std::isnan(o.error) ? "" : fmt::format("{:.2f} +- {:.2f} %", 100.0 * o.error, 100.0 * o.half_width);
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 std::string setting_text(const TuneResult::Line& line) {
@@ -138,16 +133,16 @@ std::string tune_csv(const TunePlan& plan, const TuneResult& result) {
   };
   for (size_t i = 0; i < result.tried.size(); ++i) {
     const TuneResult::Line& l = result.tried[i];
-    text += fmt::format("search,{},{},{},{},{},{},{},{}\n", quoted(result.lights), l.method,
-                        quoted(setting_text(l)), quoted(l.why), numbers(l.outcome),
-                        quoted(verdict(l.outcome, plan.bounds)), i == result.chosen ? "yes" : "no",
-                        quoted(l.command));
+    text += fmt::format("search,{},{},{},{},{},{},{},{}\n", csv_cell(result.lights), l.method,
+                        csv_cell(setting_text(l)), csv_cell(l.why), numbers(l.outcome),
+                        csv_cell(verdict(l.outcome, plan.bounds)), i == result.chosen ? "yes" : "no",
+                        csv_cell(l.command));
   }
   for (const Verification& v : result.verified) {
     const TuneResult::Line& l = result.tried[result.chosen];
-    text +=
-        fmt::format("verify,{},{},{},{},{},{},yes,\n", quoted(v.lights), l.method, quoted(setting_text(l)),
-                    quoted("lights that the search did not see"), numbers(v.outcome), to_string(v.verdict));
+    text += fmt::format("verify,{},{},{},{},{},{},yes,\n", csv_cell(v.lights), l.method,
+                        csv_cell(setting_text(l)), csv_cell("lights that the search did not see"),
+                        numbers(v.outcome), to_string(v.verdict));
   }
   return text;
 }

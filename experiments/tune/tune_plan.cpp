@@ -137,11 +137,8 @@ Outcome outcome_of(const RunRecord& record, ErrorMetric metric) {
     outcome.error = errors->value.relative, outcome.half_width = errors->half_width.relative;
   }
   outcome.relight_ms = record.relight_ms.median;
-  outcome.memory_mb = 0.0;
-  for (const auto& [artefact, bytes] : record.memory_bytes)
-    if (artefact != "process_peak") outcome.memory_mb += 1e-6 * static_cast<double>(bytes);
-  const auto hits = record.counters.find("cache_hits");
-  if (hits == record.counters.end() || hits->second == 0) outcome.precompute_s = record.precompute_s;
+  outcome.memory_mb = 1e-6 * static_cast<double>(prepared_bytes(record));
+  outcome.precompute_s = record.precompute_s;
   return outcome;
 }
 

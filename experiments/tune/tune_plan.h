@@ -51,7 +51,7 @@ TunePlan make_tune_plan(const TuneOptions& options, const MethodList& methods);
 // OUT/chosen.
 ComparePlan compare_plan(const TunePlan& plan);
 
-// The outcome that a record holds. Precompute time is NaN where the data came from the cache.
+// The outcome that a record holds.
 Outcome outcome_of(const RunRecord& record, ErrorMetric metric);
 
 }  // namespace relight

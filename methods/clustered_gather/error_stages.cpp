@@ -54,7 +54,8 @@ ErrorStages error_stages(const KnobValues& knobs) {
   ErrorStages out;
   // View clusters before interpolation: the nearest of few clusters alone would be another approximation, a
   // picture of facets.
-  out.stages = {shadows(knobs), storage(knobs), view_clusters(knobs), interpolation(knobs), gather_clusters(knobs)};
+  out.stages = {shadows(knobs), storage(knobs), view_clusters(knobs), interpolation(knobs),
+                gather_clusters(knobs)};
   const int64_t directions = knobs.integer("directions");
   out.remainder = "directions";
   out.remainder_sentence = fmt::format(

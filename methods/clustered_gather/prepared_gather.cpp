@@ -20,7 +20,8 @@ class GpuLinks {
  public:
   GpuLinks(const Links& links, Part part, SampleFormat format)
       : links_(gpu::Buffer::from(pack_links(links, format))),
-        texel_(format == SampleFormat::full ? gpu::TexelView::Format::rgba32ui : gpu::TexelView::Format::rgb32ui),
+        texel_(format == SampleFormat::full ? gpu::TexelView::Format::rgba32ui
+                                            : gpu::TexelView::Format::rgb32ui),
         pixel_(gpu::Buffer::from(links.pixel)),
         program_(gpu::Program::compute("methods/clustered_gather/links.glsl",
                                        {part == Part::diffuse ? "DIFFUSE 1" : "DIFFUSE 0",
@@ -65,8 +66,9 @@ class PreparedGather : public Prepared {
         scene_environment_(context.scene.environment),
         kept_environment_("clustered_gather", context.knobs, artefact.gather.environment.columns > 0),
         environment_(make_environment_light(context, artefact.gather, !oracle_)),
-        samples_(context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
-                 gpu_samples(artefact.gather.samples, context.buffer.view.camera.eye, storage(context.knobs))),
+        samples_(
+            context.gpu, context.scene, context.tracer, context.buffer, context.knobs,
+            gpu_samples(artefact.gather.samples, context.buffer.view.camera.eye, storage(context.knobs))),
         direct_(samples_.make()),
         first_(gpu::Buffer::from(artefact.gather.first)),
         albedo_(gpu::Buffer::from(albedo(context.buffer))),

@@ -1,4 +1,5 @@
-// The form in which gather samples and links are kept for relighting (clustered gather paper, 2006, section 4).
+// The form in which gather samples and links are kept for relighting (clustered gather paper, 2006, section
+// 4).
 #pragma once
 
 #include <vector>

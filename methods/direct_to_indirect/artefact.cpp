@@ -10,16 +10,10 @@
 namespace relight::direct_to_indirect {
 namespace {
 
-constexpr int precompute_version = 14;
-// Version of what differs for clouds below 65,536 samples: how many particles place them. To be dropped with
-// the next precompute_version.
-constexpr int small_cloud_version = 2;
-constexpr int64_t small_cloud = 65536;
+constexpr int precompute_version = 15;
 
-std::string versioned(const PrepareContext& context, const std::string& words) {
-  const bool small = context.knobs.integer("gather_samples") < small_cloud;
-  return fmt::format("version={}{};layout={},{},{};{}", precompute_version,
-                     small ? fmt::format(".{}", small_cloud_version) : "", sizeof(SurfaceSample),
+std::string versioned(const std::string& words) {
+  return fmt::format("version={};layout={},{},{};{}", precompute_version, sizeof(SurfaceSample),
                      sizeof(SparseEntry), sizeof(SparseEntryRgb), words);
 }
 
@@ -58,11 +52,11 @@ bool wants_environment(const PrepareContext& context) {
 }
 
 std::string cache_key(const PrepareContext& context) {
-  return fmt::format("{};{}{}", versioned(context, pixel_words(context)), context.knobs.precompute_key(),
+  return fmt::format("{};{}{}", versioned(pixel_words(context)), context.knobs.precompute_key(),
                      wants_environment(context) ? ";with environment" : "");
 }
 
-std::string view_key(const PrepareContext& context) { return versioned(context, view_words(context)); }
+std::string view_key(const PrepareContext& context) { return versioned(view_words(context)); }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
   std::vector<std::byte> out;

@@ -14,8 +14,9 @@
 // raises the objective by w_i^2 / (A^-1)_ii, A the matrix of the normal equations (the saliency of Hassibi
 // and Stork, "Second order derivatives for network pruning: Optimal Brain Surgeon", 1992).
 //
-// The work grows with the cube of a row's entries. Of a row with more than `largest_fit` those with the smallest
-// answers c_k^2 H_kk keep their values, and the others are fitted to what these leave of the row's answers.
+// The work grows with the cube of a row's entries. Of a row with more than `largest_fit` those with the
+// smallest answers c_k^2 H_kk keep their values, and the others are fitted to what these leave of the row's
+// answers.
 #pragma once
 
 #include <array>
@@ -75,7 +76,7 @@ class LightRefit {
   std::vector<float> block_;        // responses of a block of coefficients
   std::vector<float> packed_;       // weighted responses of columns_: columns x lights
   std::vector<float> right_sides_;  // columns x lanes
-  std::vector<float> gram_;         // H, lower triangle: of columns_, or of one row's if the tile has too many
+  std::vector<float> gram_;  // H, lower triangle: of columns_, or of one row's if the tile has too many
   size_t gram_columns_ = 0;
   // One row: what is left as indices into columns_ and into H, the whole row's values, ridge, right sides,
   // solution, and the normal equations' factor; then what keeps its value.

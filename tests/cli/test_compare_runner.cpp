@@ -87,8 +87,8 @@ TEST(CompareRunner, AThrowingMethodLeavesARecordAndTheOthersRun) {
   EXPECT_NE(summary_text(records).find("FAILED: relight: broken on purpose"), std::string::npos);
 }
 
-// Red if a repeat profits from the light that the one before it left behind: it would report the time of doing
-// nothing (tried: without forget() before each repeat, lights_cached is 1).
+// Red if a repeat profits from the light that the one before it left behind: it would report the time of
+// doing nothing (tried: without forget() before each repeat, lights_cached is 1).
 TEST(CompareRunner, EveryTimedRelightShadesItsLightsAfresh) {
   Comparison comparison;
   comparison.add(make_direct_to_indirect());

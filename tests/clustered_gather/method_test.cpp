@@ -134,8 +134,8 @@ TEST(ClusteredGather, IsLinearInTheLights) {
   EXPECT_LT(relative_difference(both.indirect, sum), 1e-6);
 }
 
-// Red if a precompute knob is missing from the key, or a relight knob in it; or if gather samples keep a glossy
-// part, which only those from the cache do not have.
+// Red if a precompute knob is missing from the key, or a relight knob in it; or if gather samples keep a
+// glossy part, which only those from the cache do not have.
 TEST(ClusteredGather, TheCacheGivesTheSamePictureAndKnowsThePrecomputeKnobs) {
   Bench bench(true);
   const Relit made = bench.relight({{"device", "cpu"}}, {lamp});

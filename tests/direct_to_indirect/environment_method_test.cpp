@@ -175,11 +175,10 @@ double mean(const Image& image) {
 
 // Light of the environment alone, one bounce, against the path tracer: means over the picture, in which noise
 // and truncation average out, and the picture itself. Constant: nothing is truncated. Map: rows keep 200 of
-// 1024 coefficients. The reference's noise is 0.3 % of a picture at 64 x 4 points and 1,024 paths. One bounce is
-// too dark by 1.4, 0.9 and 0.7 % in the mean of 12 seeds (spread 0.3 %), by 0.9, 0.5 and 0.5 % with 16,384 gather
-// samples, whatever the links and the near field: hence 2 %. Tried,
-// each red: the gather samples' light left out; their albedo left out; the environment seen twice by the
-// camera; environment_bounces 0.
+// 1024 coefficients. The reference's noise is 0.3 % of a picture at 64 x 4 points and 1,024 paths. One bounce
+// is too dark by 1.4, 0.9 and 0.7 % in the mean of 12 seeds (spread 0.3 %), by 0.9, 0.5 and 0.5 % with 16,384
+// gather samples, whatever the links and the near field: hence 2 %. Tried, each red: the gather samples'
+// light left out; their albedo left out; the environment seen twice by the camera; environment_bounces 0.
 TEST(EnvironmentMethod, AgreesWithThePathTracerForOneBounce) {
   struct Case {
     Environment environment;

@@ -62,8 +62,8 @@ TEST(PixelsAlone, AreThoseOfTheWholePictureBitForBitOnTheCpu) {
   }
 }
 
-// With view_basis=haar the rows of eight neighbouring tiles lie in one patch of the product, whose columns are
-// summed in turns: other tiles left empty change the order of a pixel's sums. 30 products: bound 1e-6.
+// With view_basis=haar the rows of eight neighbouring tiles lie in one patch of the product, whose columns
+// are summed in turns: other tiles left empty change the order of a pixel's sums. 30 products: bound 1e-6.
 TEST(PixelsAlone, AreThoseOfTheWholePictureUpToRoundingInAHaarBasis) {
   TransferBench bench(load_scene("cornell"), width, height);
   const Both both = relit(bench,

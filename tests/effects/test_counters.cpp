@@ -95,8 +95,8 @@ TEST(EffectCounters, OnTheGpuToo) {
   }
 }
 
-// One bounce by --set: with more of them direct_to_indirect's gather samples would be others, and the picture with
-// them.
+// One bounce by --set: with more of them direct_to_indirect's gather samples would be others, and the picture
+// with them.
 TEST(EffectCounters, WithoutVisibleGlossThereIsNoGlossyMatrixAndThePictureIsTheSame) {
   const std::vector<std::string> one = {"direct_to_indirect.bounces=1", "clustered_gather.bounces=1"};
   for (const RunRecord& r : run({"hidden_gloss", "spot", {}, true, one})) {

@@ -36,7 +36,8 @@ TEST(PlanCommand, MistakesNameWhatIsValid) {
   says(plan_command("plane", "direct_to_indirect --tolerance nan"), "from 0 to below 1");
   says(plan_command("plane", "direct_to_indirect --effect bounces"), "effect=level");
   says(plan_command("plane", "direct_to_indirect --effect bounces=9"), "valid: 0, 1, 2");
-  says(plan_command("plane", "direct_to_indirect --effect fog=on"), "valid: bounces, environment, glossy_final_gather");
+  says(plan_command("plane", "direct_to_indirect --effect fog=on"),
+       "valid: bounces, environment, glossy_final_gather");
   says(plan_command("plane", "direct_to_indirect --effect bounces=1 --effect bounces=2"), "before");
   const TemporaryFolder folder;
   says("compare --scene cornell --lights omni --methods clustered_gather --effect bounces=0 --out " +

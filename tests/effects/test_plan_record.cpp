@@ -3,10 +3,10 @@
 
 #include "common/run/error.h"
 #include "common/run/run_record.h"
-#include "experiments/run/record_of.h"
 #include "experiments/effects/plan_effects.h"
 #include "experiments/method_list.h"
 #include "experiments/report/report.h"
+#include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
 #include "tests/cli/program.h"
 

@@ -67,8 +67,8 @@ TEST(Planner, InABrightClosedRoomAllBouncesAreComputedAndTheRestIsTold) {
 }
 
 // Bounces of a sphere of albedo 0.5 against the geometric series: the least n for which bounces n + 1 to 8
-// are below the tolerance. Red if the rest is compared with the picture of the bounces kept, or if a bounce is
-// counted with its neighbour.
+// are below the tolerance. Red if the rest is compared with the picture of the bounces kept, or if a bounce
+// is counted with its neighbour.
 TEST(Planner, TheNumberOfBouncesIsThatOfTheGeometricSeries) {
   const MethodList methods = make_all_methods();
   const Method& method = find_method(methods, transfer);

@@ -5,25 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "common/image/metrics.h"
+#include "common/image/metric_fields.h"
 
 namespace relight {
 namespace {
 
 constexpr int width = 24, height = 16, trials = 600;
-
-struct Metric {
-  const char* name;
-  double MetricSet::*field;
-};
-constexpr std::array<Metric, 8> metrics = {{{"relative", &MetricSet::relative},
-                                            {"relative_edges_out", &MetricSet::relative_edges_out},
-                                            {"relative_hdr", &MetricSet::relative_hdr},
-                                            {"rmse", &MetricSet::rmse},
-                                            {"relmse", &MetricSet::relmse},
-                                            {"bias", &MetricSet::bias},
-                                            {"ssim", &MetricSet::ssim},
-                                            {"max", &MetricSet::max}}};
 
 // Smooth colours with a bright spot above white and a dark corner: every branch of the metrics takes part.
 Image true_image() {
@@ -53,7 +40,8 @@ struct Statistics {
   }
 };
 
-std::array<Statistics, 8> run_trials(const Image& a, const Image& truth, float noise_scale) {
+std::array<Statistics, std::size(metric_fields)> run_trials(const Image& a, const Image& truth,
+                                                            float noise_scale) {
   std::mt19937_64 random(7);
   std::normal_distribution<float> normal;
   const Image sigma = noise_sigma(noise_scale);
@@ -61,16 +49,17 @@ std::array<Statistics, 8> run_trials(const Image& a, const Image& truth, float n
   for (auto& pixel : variance.pixels) pixel *= pixel;
   std::vector<uint8_t> edge(truth.pixels.size());
   for (size_t i = 0; i < edge.size(); ++i) edge[i] = i % 5 == 0;
-  std::array<Statistics, 8> statistics;
+  std::array<Statistics, std::size(metric_fields)> statistics;
   for (int trial = 0; trial < trials; ++trial) {
     Image noisy = truth;
     for (size_t i = 0; i < noisy.pixels.size(); ++i) noisy.pixels[i] += normal(random) * sigma.pixels[i];
     const ErrorReport report = compare_images(a, noisy, variance, edge, 1.0f);
-    for (size_t m = 0; m < metrics.size(); ++m) {
-      const double value = report.value.*metrics[m].field;
+    for (size_t m = 0; m < std::size(metric_fields); ++m) {
+      const double value = report.value.*metric_fields[m].second;
       Statistics& s = statistics[m];
       s.sum += value, s.squares += value * value, s.magnitudes += std::abs(value);
-      s.floors += report.noise_floor.*metrics[m].field, s.half_widths += report.half_width.*metrics[m].field;
+      s.floors += report.noise_floor.*metric_fields[m].second;
+      s.half_widths += report.half_width.*metric_fields[m].second;
     }
   }
   return statistics;
@@ -83,9 +72,9 @@ std::array<Statistics, 8> run_trials(const Image& a, const Image& truth, float n
 TEST(MetricNoise, FloorIsTheMeanMetricOfANoiseFreeImage) {
   const Image truth = true_image();
   const auto statistics = run_trials(truth, truth, 1.0f);
-  for (size_t m = 0; m < metrics.size(); ++m) {
+  for (size_t m = 0; m < std::size(metric_fields); ++m) {
     const Statistics& s = statistics[m];
-    const std::string name = metrics[m].name;
+    const std::string name = metric_fields[m].first;
     const double measured = name == "bias" ? s.magnitudes / trials : s.mean(), floor = s.floors / trials;
     const double size = name == "ssim" ? 0.1 * (1.0 - measured) : 0.02 * measured;
     EXPECT_NEAR(floor, measured, 4.0 * s.sd() / std::sqrt(trials) + size) << name;
@@ -99,12 +88,12 @@ TEST(MetricNoise, HalfWidthIsTheSpreadOfAWrongImage) {
   Image a = true_image();
   for (size_t i = 0; i < a.pixels.size(); ++i) a.pixels[i] *= i % 2 ? 1.3f : 1.1f;
   const auto statistics = run_trials(a, true_image(), 0.3f);
-  for (size_t m = 0; m < metrics.size(); ++m) {
+  for (size_t m = 0; m < std::size(metric_fields); ++m) {
     const Statistics& s = statistics[m];
     // The largest of many similar differences spreads less than any one of them; its half width is a bound.
-    const double least = std::string(metrics[m].name) == "max" ? 0.5 : 0.85;
-    EXPECT_GT(1.96 * s.sd() / (s.half_widths / trials), least) << metrics[m].name;
-    EXPECT_LT(1.96 * s.sd() / (s.half_widths / trials), 1.15) << metrics[m].name;
+    const double least = std::string(metric_fields[m].first) == "max" ? 0.5 : 0.85;
+    EXPECT_GT(1.96 * s.sd() / (s.half_widths / trials), least) << metric_fields[m].first;
+    EXPECT_LT(1.96 * s.sd() / (s.half_widths / trials), 1.15) << metric_fields[m].first;
   }
 }
 
@@ -113,9 +102,9 @@ TEST(MetricNoise, HalfWidthIsTheSpreadOfAWrongImage) {
 TEST(MetricNoise, HalfWidthOfANoiseFreeImageIsTheChiSquareSpread) {
   const Image truth = true_image();
   const auto statistics = run_trials(truth, truth, 0.3f);
-  for (size_t m = 0; m < metrics.size(); ++m) {
+  for (size_t m = 0; m < std::size(metric_fields); ++m) {
     const Statistics& s = statistics[m];
-    const std::string name = metrics[m].name;
+    const std::string name = metric_fields[m].first;
     const double least = name == "ssim" || name == "max" ? 0.3 : 0.85;
     EXPECT_GT(1.96 * s.sd() / (s.half_widths / trials), least) << name;
     EXPECT_LT(1.96 * s.sd() / (s.half_widths / trials), 1.15) << name;

@@ -17,7 +17,8 @@ struct Bounds {
   float albedo;    // of the largest channel of the sample
 };
 // Spacing of 16-bit floats below 1; of 65,536 steps over twice the half extent; half a step of 1/127 on the
-// octahedron in both directions, whose map stretches angles by at most 3 (in the middle of a face); half a step of the shared exponent.
+// octahedron in both directions, whose map stretches angles by at most 3 (in the middle of a face); half a
+// step of the shared exponent.
 const Bounds bounds[] = {{SampleFormat::half, 0x1p-11f, 1e-3f, 0x1p-11f},
                          {SampleFormat::bytes, 0x1p-15f, 0.0168f, 0x1p-8f}};
 
@@ -26,8 +27,9 @@ std::vector<SurfaceSample> samples_in(float scale, const glm::vec3& shift) {
   const RayTracer tracer(scene);
   std::vector<SurfaceSample> samples = test::random_samples(tracer, 5000);
   for (size_t i = 0; i < samples.size(); ++i)
-    samples[i].diffuse = std::exp2(-8.0f * random_float(1, 2, i, 0)) *
-                         glm::vec3(random_float(1, 2, i, 1), random_float(1, 2, i, 2), random_float(1, 2, i, 3));
+    samples[i].diffuse =
+        std::exp2(-8.0f * random_float(1, 2, i, 0)) *
+        glm::vec3(random_float(1, 2, i, 1), random_float(1, 2, i, 2), random_float(1, 2, i, 3));
   return samples;
 }
 
@@ -54,7 +56,8 @@ TEST(SampleFormats, KeepASampleWithinTheirBoundsAndOnItsSide) {
           ASSERT_GE(glm::dot(moved, s.shading_normal), -1e-6f * (1.0f + shift) * extent);
           ASSERT_LE(glm::length(k.shading_normal - s.shading_normal), b.angle);
           ASSERT_EQ(k.geometric_normal, k.shading_normal);
-          ASSERT_LE(largest_coordinate(k.diffuse - s.diffuse), 1.01f * b.albedo * largest_coordinate(s.diffuse) + 1e-7f);
+          ASSERT_LE(largest_coordinate(k.diffuse - s.diffuse),
+                    1.01f * b.albedo * largest_coordinate(s.diffuse) + 1e-7f);
         }
       }
 }
@@ -62,7 +65,8 @@ TEST(SampleFormats, KeepASampleWithinTheirBoundsAndOnItsSide) {
 // Black, invalid, a single one, none: no division by a zero extent or a zero albedo.
 TEST(SampleFormats, TakeWhatHasNoExtent) {
   SurfaceSample s;
-  s.position = glm::vec3(3, 4, 5), s.shading_normal = s.geometric_normal = glm::vec3(0, -1, 0), s.valid = true;
+  s.position = glm::vec3(3, 4, 5), s.shading_normal = s.geometric_normal = glm::vec3(0, -1, 0),
+  s.valid = true;
   SurfaceSample nothing;
   nothing.position = glm::vec3(NAN);
   for (const Bounds& b : bounds) {
@@ -76,14 +80,14 @@ TEST(SampleFormats, TakeWhatHasNoExtent) {
   }
 }
 
-// The shader unpacks what the CPU unpacks: traced shadows are the same bits, so the rest may differ by rounding
-// only. Cut into slabs, too. Red if a word is read from the wrong place.
+// The shader unpacks what the CPU unpacks: traced shadows are the same bits, so the rest may differ by
+// rounding only. Cut into slabs, too. Red if a word is read from the wrong place.
 TEST(SampleFormats, ShadeOnTheGpuAsOnTheCpu) {
   const auto context = gpu::Context::create("osmesa");
   const Scene scene = test::room_scene();
   const RayTracer tracer(scene);
-  const LightingState lighting{"two", {test::omni_light({0.3f, 0.9f, 0.2f}),
-                                       test::spot_light({-1.2f, 1.1f, -1.0f}, {1, -1, 1}, 30)}};
+  const LightingState lighting{
+      "two", {test::omni_light({0.3f, 0.9f, 0.2f}), test::spot_light({-1.2f, 1.1f, -1.0f}, {1, -1, 1}, 30)}};
   for (const Bounds& b : bounds) {
     const CompactSamples stored = compact(test::random_samples(tracer, 20000), b.format);
     DirectLighting shading(*context, scene, tracer, {Shadows::traced, 0});

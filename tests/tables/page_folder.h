@@ -35,7 +35,7 @@ struct PageFolder {
                 {{"relight.command", r.command}});
   }
   std::string page(RunPages pages = RunPages::missing) const {
-    write_experiment_page(path, {}, pages);
+    write_experiment_page(path, pages);
     return text_of(path / "index.html");
   }
 };

@@ -51,7 +51,7 @@ std::vector<RunRecord> planted_methods() {
 }
 
 tables::Group group_of(const std::vector<RunRecord>& records) {
-  const auto groups = tables::make_groups(records, [](const RunRecord& r) { return r.command; });
+  const auto groups = tables::make_groups(records);
   if (groups.size() != 1) throw std::logic_error("not one group");
   return groups.front();
 }

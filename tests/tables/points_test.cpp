@@ -1,6 +1,7 @@
-// Which runs stand together, by which name, and with which precompute time.
+// Which runs stand together, and by which name.
 #include <gtest/gtest.h>
 
+#include "experiments/run/record_of.h"
 #include "planted_records.h"
 
 namespace relight::test {
@@ -8,14 +9,12 @@ namespace {
 
 using namespace tables;
 
-const PrecomputeKey by_method = [](const RunRecord& r) { return r.method; };
-
 // Red if errors against references of other light paths are put side by side.
 TEST(Groups, AreOfOneSceneLightingViewAndSetOfLightPaths) {
   std::vector<RunRecord> records(5, planted("a", "x", 0.05, 0, 10));
   records[1].scene = "ball", records[2].lighting = "omni", records[3].view = "32x24";
   records[4].reference_paths = "E D D D L, 2 bounces, local lights";
-  const std::vector<Group> groups = make_groups(records, by_method);
+  const std::vector<Group> groups = make_groups(records);
   ASSERT_EQ(groups.size(), 5u);
   EXPECT_EQ(groups[1].title(), "ball, spot, 64x48");
   EXPECT_EQ(groups[4].title(), "box, spot, 64x48, E D D D L, 2 bounces, local lights");
@@ -25,7 +24,7 @@ TEST(Groups, AreOfOneSceneLightingViewAndSetOfLightPaths) {
 TEST(Groups, KeepRunsThatFailedEarly) {
   RunRecord failed = planted_failure("b", "out of memory");
   failed.reference_paths = "";
-  const std::vector<Group> groups = make_groups({failed, planted("a", "x", 0.05, 0, 10)}, by_method);
+  const std::vector<Group> groups = make_groups({failed, planted("a", "x", 0.05, 0, 10)});
   ASSERT_EQ(groups.size(), 1u);
   ASSERT_EQ(groups[0].points.size(), 2u);
   EXPECT_EQ(groups[0].points[1].failure, "out of memory");
@@ -43,24 +42,6 @@ TEST(Points, HoldValuesIntervalsAndBytesWithoutThePeak) {
   EXPECT_DOUBLE_EQ(p[CostKind::memory].value, 12e6);
   EXPECT_DOUBLE_EQ(p[CostKind::precompute].value, 3);
   EXPECT_DOUBLE_EQ(group.noise_floors[0].value, 0.001);
-}
-
-// Red if the time of loading from the cache passes for that of the precompute.
-TEST(Points, TakeThePrecomputeTimeFromTheRunThatMadeTheData) {
-  std::vector<RunRecord> records{planted("a", "x", 0.05, 0, 10, 1, 70),
-                                 planted("a", "y", 0.04, 0, 10, 1, 1.5),
-                                 planted("b", "x", 0.04, 0, 10, 1, 1.5)};
-  records[1].counters["cache_hits"] = records[2].counters["cache_hits"] = 1;
-  const Group group = make_groups(records, by_method).front();
-  EXPECT_EQ(group.points[0][CostKind::precompute].value, 70);
-  EXPECT_FALSE(group.points[0].shared_precompute);
-  EXPECT_EQ(group.points[1][CostKind::precompute].value, 70);
-  EXPECT_TRUE(group.points[1].shared_precompute);
-  EXPECT_FALSE(group.points[2][CostKind::precompute].known());
-  // A record that tells what making the data took, whoever made them.
-  records[2].precompute_stages = {{"cache_load", 0.5}, {"gather", 70}};
-  records[2].precompute_s = 70.1;
-  EXPECT_EQ(make_groups(records, by_method).front().points[2][CostKind::precompute].value, 70.1);
 }
 
 TEST(LatestOfEach, KeepsTheLastRecordOfARunInTheOrderOfTheFirst) {

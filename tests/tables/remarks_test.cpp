@@ -54,7 +54,7 @@ TEST(Remarks, NameAnErrorThatIsNoiseAlone) {
 // Red if a planted method could pass: the table of all runs names all three, none of them wins anywhere.
 TEST(PlantedMethods, AreShownAsSuchByTheTables) {
   Results results{planted_methods(), {}, {}};
-  results.groups = make_groups(results.records, [](const RunRecord& r) { return r.command; });
+  results.groups = make_groups(results.records);
   const std::string runs = markdown(runs_table(results));
   for (const char* words :
        {"3.0 % too dark", "FAILED: total image: 1 pixels are not finite", "10.0 times slower than exact"})

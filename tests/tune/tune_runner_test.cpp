@@ -26,14 +26,15 @@ struct Trial {
     methods.push_back(test::make_scaled_method(relights, overfit));
     options.session.scene = "cornell", options.session.lights = "omni", options.session.view = "16x12";
     options.session.quiet = true, options.session.no_cache = true;
-    options.error = "9%", options.metric = "indirect", options.minimise = "memory", options.verify_lights = "near,spot";
+    options.error = "9%", options.metric = "indirect", options.minimise = "memory",
+    options.verify_lights = "near,spot";
     options.reference_samples = 256, options.repeats = 1, options.out = folder / "out";
   }
   TuneResult run() { return tune(make_tune_plan(options, methods)); }
 };
 
-// Least quality + 3 detail with 0.4 / quality + 0.2 / detail below 0.09: (16, 4). From the defaults (8, 8) no single
-// step leads there.
+// Least quality + 3 detail with 0.4 / quality + 0.2 / detail below 0.09: (16, 4). From the defaults (8, 8) no
+// single step leads there.
 TEST(TuneRunner, FindsTheKnownOptimumAndVerifiesItUnderOtherLights) {
   Trial trial;
   const TunePlan plan = make_tune_plan(trial.options, trial.methods);

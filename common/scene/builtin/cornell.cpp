@@ -44,9 +44,9 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
     mesh.object("short box", mesh.material("blue grey", {0.45f, 0.52f, 0.65f}));
     mesh.box(modelling::turned({0.36, 0.0, 0.32}, -17.0), {-0.30, 0.0, -0.30}, {0.30, 0.6, 0.30}, cuts);
   }
-  // Off the axis by a little: else the edges of walls and ceiling would pass exactly through pixel centres, and
-  // rounding, which differs between processors, decide what is seen there. A closed room is seen from inside
-  // it, with a wider view.
+  // Off the axis by a little: else the edges of walls and ceiling would pass exactly through pixel centres,
+  // and rounding, which differs between processors, decide what is seen there. A closed room is seen from
+  // inside it, with a wider view.
   scene.camera = open_front ? Camera{{0.011f, 1.007f, 3.9f}, {0.004f, 1.003f, 0}, {0, 1, 0}, 39.0f}
                             : Camera{{0, 1.05f, 0.97f}, {0, 0.9f, -1}, {0, 1, 0}, 75.0f};
   scene.exposure = 1.0f;
