@@ -76,7 +76,8 @@ def main():
     rows = good(read(options.csv), [ERRORS[options.error][0], "relight_ms"], options.csv)
     place = lambda row: (scene_name(row), row["lights"], row["view"])
     panels, methods = distinct(rows, place), distinct(rows, lambda row: row["method"])
-    columns = min(3, len(panels))
+    # Rows of equal length, if four or three a row give them.
+    columns = min(4 if len(panels) % 4 == 0 else 3, len(panels))
     lines = (len(panels) + columns - 1) // columns
     figure, grid = pyplot.subplots(lines, columns, figsize=(3.6 * columns, 2.9 * lines + 0.3), squeeze=False)
     for axes in grid.flat[len(panels) :]:
@@ -87,8 +88,9 @@ def main():
         axes.set_xlabel(COSTS[options.cost], fontsize=8)
         axes.set_ylabel(ERRORS[options.error][1], fontsize=8)
     handles = {label: handle for axes in grid.flat for handle, label in zip(*axes.get_legend_handles_labels())}
-    grid.flat[0].legend(handles.values(), handles.keys(), fontsize=7, frameon=False)
-    save(figure, options.out)
+    figure.legend(handles.values(), handles.keys(), loc="upper center", ncol=len(handles), fontsize=9,
+                  frameon=False)
+    save(figure, options.out, room_above=0.35)
 
 
 if __name__ == "__main__":

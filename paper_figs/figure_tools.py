@@ -87,8 +87,8 @@ def plain_numbers(axis):
     axis.set_minor_formatter(NullFormatter())
 
 
-def save(figure, out):
-    figure.tight_layout()
+def save(figure, out, room_above=0.0):
+    figure.tight_layout(rect=(0, 0, 1, 1 - room_above / figure.get_figheight()))  # [inches]
     folder = os.path.dirname(os.path.abspath(out))
     os.makedirs(folder, exist_ok=True)
     with tempfile.NamedTemporaryFile(dir=folder, suffix=".svg", delete=False) as temporary:

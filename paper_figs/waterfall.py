@@ -39,7 +39,7 @@ def number(row, column):
 
 
 def draw(axes, rows, measure, title):
-    rows = [row for row in rows if row["kind"] != "closer"]
+    rows = [row for row in rows if row["kind"] not in ("closer", "model")]
     level = 0.0
     for at, row in enumerate(rows):
         points, width = number(row, f"points_{measure}"), number(row, f"half_width_{measure}")

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "common/run/atomic_file.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
 #include "experiments/explain/explain.h"
@@ -40,8 +39,7 @@ int run_explain_error(const ExplainOptions& options) {
   const MethodList methods = make_all_methods();
   const ExplainPlan plan = make_explain_plan(options, methods);
   const Explanation explanation = explain(plan);
-  write_text_atomically(plan.out / "waterfall.csv", waterfall_csv(explanation));
-  write_text_atomically(plan.out / "waterfall.json", waterfall_json(explanation));
+  write_explanation(explanation, plan.out);
   fmt::print("{}\ntable   {}\ndetails {}\n", waterfall_text(explanation),
              (plan.out / "waterfall.csv").string(), (plan.out / "waterfall.json").string());
   return 0;

@@ -9,6 +9,7 @@
 #include "experiments/cli/session_flags.h"
 #include "experiments/compare/compare.h"
 #include "experiments/experiment_page/experiment_page.h"
+#include "experiments/run/explain_runs.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/run/workers.h"
 #include "experiments/session/output_folder.h"
@@ -35,6 +36,8 @@ int dry_run(const RunOptions& options, const RunList& list, const std::filesyste
   const std::vector<bool> done =
       options.again ? std::vector<bool>(list.runs.size(), false) : done_runs(list, out);
   fmt::print("\n{}", plan_text(list.runs, done, forecasts_for(list, out)));
+  if (const size_t n = runs_to_explain(list, out, options.again).size(); n > 0)
+    fmt::print("errors to take apart (explain_pixels): {}, minutes each, not in the time above\n", n);
   return 0;
 }
 
@@ -61,8 +64,10 @@ int run(RunOptions options) {
   require_writable_folder("--out", out);
   // Before the runs: a page made after a kill has its title too.
   write_description(out, {experiment.name, experiment.title, list.left_out, experiment.paper_numbers});
-  const ExperimentResult result =
+  ExperimentResult result =
       options.jobs > 1 ? run_in_workers(options, list, out) : run_experiment(list, out, options.again);
+  for (std::string& failure : explain_runs(list, runs_to_explain(list, out, options.again), out))
+    result.failures.push_back(std::move(failure));
   if (std::filesystem::exists(out / "records.jsonl"))
     fmt::print("{}", write_experiment_page(out, RunPages::missing));
   fmt::print("\npage    {}\nrecords {}\ntable   {}\nimages  {}\n", (out / "index.html").string(),

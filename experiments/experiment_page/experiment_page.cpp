@@ -50,7 +50,8 @@ std::string paper_section(const std::vector<tables::Table>& papers) {
 }
 
 std::string page_text(const ExperimentDescription& about, const tables::Results& results,
-                      const std::vector<tables::Table>& papers, const std::vector<std::string>& warnings) {
+                      const tables::Table& explained, const std::vector<tables::Table>& papers,
+                      const std::vector<std::string>& warnings) {
   using namespace page;
   const std::string title = report::escaped(about.title);
   std::string html = fmt::format(
@@ -61,7 +62,7 @@ std::string page_text(const ExperimentDescription& about, const tables::Results&
       title, report::style_sheet, page::style_sheet, report::escaped(about.name), results.records.size());
   html += who_wins_section(results) + "\n" + accuracy_section(results) + "\n";
   html += "<section id=all-runs><h2>All runs</h2>" + page::html(tables::runs_table(results)) + "</section>\n";
-  html += paper_section(papers);
+  html += explained_section(explained) + paper_section(papers);
   html += failures(results, about.left_out) + "\n" + left_out_section(results, about.left_out) + "\n" +
           provenance_section(results, warnings);
   return html + fmt::format(
@@ -80,11 +81,16 @@ std::string write_experiment_page(const std::filesystem::path& folder, RunPages 
   tables::Results results;
   results.records = latest_of_each(read.records);
   results.groups = tables::make_groups(results.records);
-  results.links = page::write_run_pages(folder, results.records, run_pages);
+  const std::vector<page::RunFolder> folders = page::write_run_pages(folder, results.records, run_pages);
+  for (const page::RunFolder& f : folders) results.links.push_back(f.link);
   const ExperimentDescription about = page::read_description(folder);
+  std::vector<std::string> warnings = read.warnings;
+  const tables::Table explained = page::explained_table(results, folders, warnings);
   const std::vector<tables::Table> papers = paper_tables(results.records, about);
-  page::write_table_files(folder, about, results, papers);
-  write_text_atomically(folder / "index.html", page_text(about, results, papers, read.warnings));
+  std::vector<tables::Table> more = papers;
+  if (!explained.rows.empty()) more.insert(more.begin(), explained);
+  page::write_table_files(folder, about, results, more);
+  write_text_atomically(folder / "index.html", page_text(about, results, explained, papers, warnings));
   return tables::terminal_text(results.groups);
 }
 

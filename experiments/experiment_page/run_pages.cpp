@@ -56,19 +56,19 @@ bool up_to_date(const fs::path& page, const fs::path& image) {
 
 }  // namespace
 
-std::vector<std::string> write_run_pages(const fs::path& folder, const std::vector<RunRecord>& records,
-                                         RunPages run_pages) {
+std::vector<RunFolder> write_run_pages(const fs::path& folder, const std::vector<RunRecord>& records,
+                                       RunPages run_pages) {
   const std::map<std::string, fs::path> images = images_by_command(folder);
-  std::vector<std::string> links(records.size());
+  std::vector<RunFolder> folders(records.size());
   for (size_t i = 0; i < records.size(); ++i) {
     const auto image = images.find(records[i].command);
     if (records[i].command.empty() || image == images.end()) continue;
     const fs::path run_folder = image->second.parent_path(), page = run_folder / "index.html";
     if (run_pages == RunPages::all || !up_to_date(page, image->second))
       write_report(run_folder, {records[i]}, "../index.html");
-    links[i] = as_address((run_folder.filename() / "index.html").generic_string());
+    folders[i] = {run_folder, as_address((run_folder.filename() / "index.html").generic_string())};
   }
-  return links;
+  return folders;
 }
 
 }  // namespace relight::page

@@ -89,20 +89,43 @@ PictureLayout layout_of(const DeepFrameBuffer& chosen, const PixelSubset& subset
   return layout;
 }
 
-PathTracerResult trace_reference(const ExplainPlan& plan, Session& session, const DeepFrameBuffer& chosen,
-                                 RunRecord& run) {
+// Every light path. Russian roulette ends them; as long as they may be, they still are of finite length.
+LightPaths every_path() {
+  LightPaths paths;
+  paths.max_bounces = 32;
+  paths.glossy_at_eye = paths.glossy_interior = paths.environment = paths.emission = true;
+  return paths;
+}
+
+// Warnings go to `run`.
+PathTracerResult trace(const ExplainPlan& plan, const LightPaths& paths, Session& session,
+                       const DeepFrameBuffer& chosen, RunRecord& run) {
   PathTracerSettings settings;
-  settings.paths = plan.method.paths;
-  if (!session.has_environment()) settings.paths = settings.paths.without_environment();
+  settings.paths = session.has_environment() ? paths : paths.without_environment();
   settings.samples_per_pixel = plan.reference_samples;
   settings.seed = plan.session.seed;
   StageLog log;
   PathTracerResult result =
       path_trace(session.tracer(), chosen, session.lighting(), settings, session.progress(), log);
-  run.reference = ReferenceCost{result.samples_per_pixel,      result.batches, result.seconds, result.rays,
-                                to_string(settings.estimator), false};
   run.warnings.insert(run.warnings.end(), log.warnings().begin(), log.warnings().end());
   return result;
+}
+
+Picture picture_of(const PathTracerResult& result) { return {result.total(), result.indirect}; }
+
+// The same random numbers in both references, so that much of their noise is not in the difference.
+ModelError model_error(const ExplainPlan& plan, const Picture& restricted, const PictureLayout& layout,
+                       Session& session, const DeepFrameBuffer& chosen, RunRecord& run) {
+  ModelError model;
+  model.paths = every_path();
+  const PathTracerResult every = trace(plan, model.paths, session, chosen, run);
+  model.seconds = every.seconds;
+  const Picture all = picture_of(every);
+  for (size_t m = 0; m < measure_count; ++m) {
+    const BlockSums sums = block_sums(restricted, all, all, layout, static_cast<Measure::Kind>(m));
+    model.share[m] = share(sums), model.half_width[m] = half_width_of_drop(sums, {});
+  }
+  return model;
 }
 
 RunRecord describe(const ExplainPlan& plan, Session& session) {
@@ -125,6 +148,7 @@ Explanation explain(const ExplainPlan& plan) {
   const DeepFrameBuffer chosen = compact(session.buffer(), subset);
   Explanation out;
   out.run = describe(plan, session);
+  out.pixels_asked = plan.pixels;
   out.pixels = subset.pixels(), out.blocks = subset.block.back() + 1;
   out.pixel_share = static_cast<double>(out.pixels) / (static_cast<double>(view.width) * view.height);
   out.edge_share = static_cast<double>(std::count(chosen.edge.begin(), chosen.edge.end(), 1)) /
@@ -134,8 +158,15 @@ Explanation explain(const ExplainPlan& plan) {
   WaterfallInput input;
   input.remainder = plan.stages.remainder, input.remainder_sentence = plan.stages.remainder_sentence;
   input.layout = layout_of(chosen, subset, session.scene().exposure);
-  const PathTracerResult reference = trace_reference(plan, session, chosen, out.run);
-  input.reference = {reference.total(), reference.indirect};
+  const PathTracerResult reference = trace(plan, plan.method.paths, session, chosen, out.run);
+  out.run.reference = ReferenceCost{reference.samples_per_pixel,
+                                    reference.batches,
+                                    reference.seconds,
+                                    reference.rays,
+                                    to_string(Estimator::light_vertex),
+                                    false};
+  input.reference = picture_of(reference);
+  out.model = model_error(plan, input.reference, input.layout, session, chosen, out.run);
   const Settings settings(plan);
   SettingRunner runner(session, subset, plan.repeats, settings.all(plan.method));
   out.shared_s = runner.warm_up(plan.method);

@@ -9,7 +9,6 @@
 namespace relight {
 namespace {
 
-constexpr int64_t most_pixels = 1 << 20;
 constexpr int max_repeats = 10000;
 
 glm::ivec2 parse_block(const std::string& text) {
@@ -49,6 +48,17 @@ KnobValues with_overrides(KnobValues knobs, const ErrorStage& stage) {
   return knobs;
 }
 
+ExplainPlan plan_explanation(const SessionOptions& session, MethodPlan method,
+                             const std::filesystem::path& out) {
+  ExplainPlan plan;
+  plan.session = session;
+  plan.stages = method.method->error_stages(method.knobs);
+  check_stages(method, plan.stages);
+  plan.method = std::move(method);
+  plan.out = out;
+  return plan;
+}
+
 ExplainPlan make_explain_plan(const ExplainOptions& options, const MethodList& methods) {
   const Method& method = find_method(methods, options.method);
   const std::vector<const Method*> chosen = {&method};
@@ -56,21 +66,16 @@ ExplainPlan make_explain_plan(const ExplainOptions& options, const MethodList& m
   MethodPlan planned = plan_method(method, parse_settings(options.settings, chosen), options.preset);
   parse_view(options.session.view);
   require_samples("--reference-samples", options.reference_samples);
-  if (options.pixels < 1 || options.pixels > most_pixels)
-    usage_fail("--pixels {}: expected 1 to {}", options.pixels, most_pixels);
+  if (options.pixels < 1 || options.pixels > most_explained_pixels)
+    usage_fail("--pixels {}: expected 1 to {}", options.pixels, most_explained_pixels);
   if (options.repeats < 0 || options.repeats > max_repeats)
     usage_fail("--repeats {}: expected 0 (chosen by duration) to {}", options.repeats, max_repeats);
-  ErrorStages stages = method.error_stages(planned.knobs);
-  check_stages(planned, stages);
-  ExplainPlan plan{options.session,
-                   std::move(planned),
-                   std::move(stages),
-                   options.pixels,
-                   parse_block(options.block),
-                   options.reference_samples,
-                   options.repeats,
-                   options.closer,
-                   options.out};
+  ExplainPlan plan = plan_explanation(options.session, std::move(planned), options.out);
+  plan.pixels = options.pixels;
+  plan.block = parse_block(options.block);
+  plan.reference_samples = options.reference_samples;
+  plan.repeats = options.repeats;
+  plan.closer = options.closer;
   require_writable_folder("--out", plan.out);
   return plan;
 }

@@ -29,17 +29,23 @@ struct ExplainPlan {
   SessionOptions session;
   MethodPlan method;
   ErrorStages stages;
-  int64_t pixels;
-  glm::ivec2 block;
-  int reference_samples;
-  int repeats;
-  bool closer;
+  int64_t pixels = 1024;
+  glm::ivec2 block{4};
+  int reference_samples = 4096;
+  int repeats = 0;
+  bool closer = false;
   std::filesystem::path out;
 };
 
+// A plan with the default block for a method whose knobs are checked. Throws std::logic_error if the method's
+// stages name knobs that it doesn't have, or change its light paths.
+ExplainPlan plan_explanation(const SessionOptions& session, MethodPlan method,
+                             const std::filesystem::path& out);
+
+constexpr int64_t most_explained_pixels = 1 << 20;
+
 // Checks all that can be checked without loading the scene. `methods` must outlive the plan. Throws
-// UsageError; std::logic_error if the method's stages name knobs that it doesn't have, or change its light
-// paths.
+// UsageError, and what plan_explanation() throws.
 ExplainPlan make_explain_plan(const ExplainOptions& options, const MethodList& methods);
 
 // The knobs with the overrides of a stage, which must be valid.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/run/atomic_file.h"
 #include "experiments/explain/explain.h"
 #include "experiments/options/csv_cell.h"
 
@@ -78,6 +79,11 @@ std::string waterfall_csv(const Explanation& e) {
   text += csv_line("total", asked, false);
   for (const WaterfallRow& row : e.waterfall.stages) text += csv_line("stage", row, row.active);
   text += csv_line("remainder", e.waterfall.remainder, false);
+  WaterfallRow model;
+  model.name = "not simulated", model.points = model.change = e.model.share;
+  model.half_width = e.model.half_width;
+  model.sentence = model_sentence(e);
+  text += csv_line("model", model, false);
   for (const auto& [name, error] : e.waterfall.closer) {
     WaterfallRow row;
     row.name = name, row.points = row.change = error, row.half_width = nothing;
@@ -88,21 +94,32 @@ std::string waterfall_csv(const Explanation& e) {
 }
 
 std::string waterfall_json(const Explanation& e) {
-  Json json = {{"pixels", e.pixels}, {"blocks", e.blocks}};
+  Json json = {{"pixels_asked", e.pixels_asked}, {"pixels", e.pixels}, {"blocks", e.blocks}};
   json["pixel_share"] = e.pixel_share;
   json["edge_share"] = e.edge_share;
   json["shared_s"] = e.shared_s;
   json["load_average"] = e.load_average;
   json["asked"] = to_json(e.waterfall.asked);
   json["asked_half_width"] = to_json(e.waterfall.asked_half_width);
+  json["stages"] = Json::array();
   for (const WaterfallRow& row : e.waterfall.stages) json["stages"].push_back(to_json(row));
   json["remainder"] = to_json(e.waterfall.remainder);
+  json["model"] = {{"share", to_json(e.model.share)},
+                   {"half_width", to_json(e.model.half_width)},
+                   {"paths", e.model.paths.to_string()},
+                   {"sentence", model_sentence(e)},
+                   {"seconds", e.model.seconds}};
   json["closer"] = Json::array();
   for (const auto& [name, error] : e.waterfall.closer)
     json["closer"].push_back({{"setting", name}, {"error", to_json(error)}});
   for (const SettingRecord& setting : e.settings) json["settings"].push_back(to_json(setting));
   json["run"] = Json::parse(record_to_json(e.run));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_explanation(const Explanation& e, const std::filesystem::path& folder) {
+  write_text_atomically(folder / "waterfall.csv", waterfall_csv(e));
+  write_text_atomically(folder / "waterfall.json", waterfall_json(e));
 }
 
 }  // namespace relight

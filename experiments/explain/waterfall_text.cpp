@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/explain/explain.h"
 #include "experiments/options/text_table.h"
@@ -50,6 +51,13 @@ std::string what_was_run(const Explanation& e) {
       percent(run.errors_indirect->noise_floor.relative_hdr));
 }
 
+std::string model_text(const Explanation& e) {
+  return fmt::format("not simulated: {} +- {} % ({} % of the indirect light). {}\n",
+                     percent(e.model.share[Measure::relative]),
+                     percent(e.model.half_width[Measure::relative]),
+                     percent(e.model.share[Measure::indirect_linear]), model_sentence(e));
+}
+
 constexpr const char* how_to_read =
     "points: per cent of relative error that go when the stage is made exact, those above it being exact; "
     "they "
@@ -59,6 +67,14 @@ constexpr const char* how_to_read =
     "alone: the same with all other stages exact. saves: against its exact twin, on these pixels only.\n";
 
 }  // namespace
+
+std::string model_sentence(const Explanation& e) {
+  std::string left_out = fmt::format("{}", fmt::join(e.run.not_simulated, "; "));
+  return fmt::format(
+      "No part of the error above: what the method leaves out by its nature or its knobs, of the picture of "
+      "every light path: {}.",
+      left_out);
+}
 
 std::string waterfall_text(const Explanation& e) {
   TextTable table({"stage", "points", "+-", "edges out", "indirect", "change", "alone", "alone change",
@@ -70,7 +86,7 @@ std::string waterfall_text(const Explanation& e) {
   table.add_row(total_cells("sum", sum_of_points(e.waterfall), NAN));
   for (const auto& [name, error] : e.waterfall.closer)
     table.add_row(total_cells("left with " + name, error, NAN));
-  std::string text = what_was_run(e) + "\n" + table.to_string(1) + "\n" + how_to_read + "\n";
+  std::string text = what_was_run(e) + "\n" + table.to_string(1) + "\n" + how_to_read + model_text(e) + "\n";
   for (const WaterfallRow& row : e.waterfall.stages) text += fmt::format("{}: {}\n", row.name, row.sentence);
   text += fmt::format("{}: {}\n", rest.name, rest.sentence);
   for (const std::string& warning : e.run.warnings) text += fmt::format("warning: {}\n", warning);

@@ -2,6 +2,7 @@
 
 #include "common/run/error.h"
 #include "common/scene/files/toml_reader.h"
+#include "experiments/explain/explain_plan.h"
 
 namespace relight {
 namespace {
@@ -28,11 +29,15 @@ RunGroup read_group(const TomlTable& table, const std::filesystem::path& folder)
   group.method = table.text("method", "");
   group.presets = values_or(table, "presets", "paper");
   group.seeds = values_or(table, "seeds", "1");
+  group.explain_pixels = static_cast<int64_t>(table.number("explain_pixels", 0, {0, most_explained_pixels}));
   group.optional = table.boolean("optional", false);
   const TomlTable knobs = table.table("knobs");
   for (const std::string& knob : knobs.keys()) group.knobs[knob] = knobs.values(knob);
   group.tolerances = values_or(table, "tolerance", "");
   const TomlTable effects = table.table("effects");
+  if (group.explain_pixels > 0 && table.has("tolerance"))
+    fail("{}: explain_pixels takes runs apart whose knobs are set; it does not go with tolerance",
+         table.where("explain_pixels"));
   for (const std::string& effect : effects.keys())
     for (const std::string& level : effects.values(effect))
       group.effects.effects.push_back(effect + "=" + level);

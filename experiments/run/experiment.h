@@ -21,7 +21,8 @@ struct RunGroup {
   std::map<std::string, std::vector<std::string>> knobs;  // knob -> values
   std::vector<std::string> tolerances;                    // of the effect planner; "": nothing is planned
   EffectOptions effects;                                  // levels and check; its tolerance is not used
-  bool optional = false;  // scenes that are not on this machine are left out, and that is said
+  int64_t explain_pixels = 0;  // > 0: also explain the error of each run on so many pixels
+  bool optional = false;       // scenes that are not on this machine are left out, and that is said
 };
 
 struct Experiment {
@@ -44,10 +45,14 @@ struct PlannedRun {
   ComparePlan plan;        // of one method; session.scene, lights, seed, view set
   std::string label;       // for people and folder names: preset, knobs that the file sets, seed
   std::string scene_hash;  // content hash of the scene
+  int64_t explain_pixels = 0;
 };
 
 // "scene, lights, method, label".
 std::string describe(const PlannedRun& run);
+
+// Of its pictures, below OUT: "colonnade_spot_direct_to_indirect_paper".
+std::string folder_name(const PlannedRun& run);
 
 struct RunList {
   std::vector<PlannedRun> runs;  // those on one scene and lighting follow each other, and of them those with

@@ -109,6 +109,16 @@ std::string describe(const PlannedRun& run) {
   return fmt::format("{}, {}, {}, {}", s.scene, s.lights, run.plan.methods.front().method->name(), run.label);
 }
 
+std::string folder_name(const PlannedRun& run) {
+  const SessionOptions& s = run.plan.session;
+  std::string name = fmt::format("{}_{}_{}_{}", std::filesystem::path(s.scene).stem().string(),
+                                 std::filesystem::path(s.lights).stem().string(),
+                                 run.plan.methods.front().method->name(), run.label);
+  for (char& c : name)
+    if (c == ' ' || c == '/' || c == ':') c = '_';
+  return name;
+}
+
 RunList make_runs(const Experiment& experiment, const SessionOptions& base, const MethodList& methods,
                   const std::filesystem::path& out) {
   RunList list;
@@ -143,8 +153,8 @@ RunList make_runs(const Experiment& experiment, const SessionOptions& base, cons
               EffectOptions effects = group.effects;
               effects.tolerance = tolerance;
               plan.effects = plan_effect_options(effects, {&method});
-              list.runs.push_back(
-                  {std::move(plan), label(group, preset, tolerance, seed, settings), lightings.hash(scene)});
+              list.runs.push_back({std::move(plan), label(group, preset, tolerance, seed, settings),
+                                   lightings.hash(scene), group.explain_pixels});
             }
       }
     }

@@ -20,16 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string folder_name(const PlannedRun& run) {
-  const SessionOptions& s = run.plan.session;
-  std::string name = fmt::format("{}_{}_{}_{}", std::filesystem::path(s.scene).stem().string(),
-                                 std::filesystem::path(s.lights).stem().string(),
-                                 run.plan.methods.front().method->name(), run.label);
-  for (char& c : name)
-    if (c == ' ' || c == '/' || c == ':') c = '_';
-  return name;
-}
-
 std::vector<RunRecord> earlier_records(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};
   RecordFile read = read_records(file);

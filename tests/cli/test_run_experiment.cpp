@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/run/error.h"
+#include "experiments/run/explain_runs.h"
 #include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/usage_error.h"
@@ -181,6 +182,30 @@ TEST(RunExperiment, WritesATableWithAColumnForEachKnobThatVaries) {
   EXPECT_NE(csv.find("relight.transfer_ms"), std::string::npos);
   EXPECT_NE(csv.find(",250,"), std::string::npos);
   EXPECT_NE(csv.find("\"relight: broken, twice\""), std::string::npos);
+}
+
+// Red if an explanation is made twice, or taken for one of other settings, or a method that fails stops the
+// others.
+TEST(RunExperiment, TakesTheErrorsApartThatTheFileAsksFor) {
+  Trial trial;
+  const std::string good = group(trial.methods[1]->name(), "explain_pixels = 16\n");
+  const RunList list = trial.list(head + group(trial.methods[2]->name(), "explain_pixels = 16\n") + good +
+                                  group(trial.methods[0]->name()));
+  const std::filesystem::path out = trial.folder / "out";
+  const std::vector<size_t> places = runs_to_explain(list, out, false);
+  EXPECT_EQ(places.size(), 4u);
+  const std::vector<std::string> failures = explain_runs(list, places, out);
+  ASSERT_EQ(failures.size(), 2u);
+  EXPECT_NE(failures.front().find("broken on purpose"), std::string::npos) << failures.front();
+  EXPECT_EQ(runs_to_explain(list, out, false).size(), 2u);
+  EXPECT_EQ(runs_to_explain(list, out, true).size(), 4u);
+  const RunList more = trial.list(head + group(trial.methods[1]->name(), "explain_pixels = 32\n"));
+  EXPECT_EQ(runs_to_explain(more, out, false).size(), 2u);
+  const auto json = nlohmann::json::parse(read_text(out / folder_name(more.runs.front()) / "waterfall.json"));
+  EXPECT_NEAR(json.at("asked").at("indirect_linear").get<double>(), 0.1, 0.05) << "ten per cent too dark";
+  EXPECT_NE(trial.message(head + group(trial.methods[1]->name(), "explain_pixels = 16\ntolerance = '1%'\n"))
+                .find("explain_pixels"),
+            std::string::npos);
 }
 
 TEST(RunCommand, ListsTheRunsOfTheExperimentsInTheRepository) {

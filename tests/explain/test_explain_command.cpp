@@ -49,6 +49,7 @@ TEST(ExplainErrorCommand, WritesATableWhosePointsAddUpAndSaysWhereItWasMade) {
   for (size_t i = 1; i < lines.size(); ++i) {
     const auto cells = cells_of(lines[i]);
     ASSERT_EQ(cells.size(), header.size()) << lines[i];
+    if (cells[0] == "model") continue;
     (cells[0] == "total" ? asked : sum) += std::stod(cells[points]);
   }
   EXPECT_GT(asked, 0.1);

@@ -52,6 +52,38 @@ TEST(ExperimentPage, LinksEachRunToAPageWithItsPictures) {
   EXPECT_EQ(text_of(run_page), text);
 }
 
+// Red if a run's waterfall is shown as another's, a stage that approximates nothing gets a row, or a broken
+// file is passed over in silence or costs the page.
+TEST(ExperimentPage, ShowsWhatTheErrorsConsistOf) {
+  const std::vector<RunRecord> records = planted_methods();
+  const PageFolder folder(records);
+  EXPECT_FALSE(has(folder.page(), "What the errors consist of"));
+  folder.add_images("box_dark", records[1]);
+  folder.add_images("box_slow", records[3]);
+  const auto stage = [](const char* name, bool active) {
+    return fmt::format(
+        R"({{"stage": "{}", "active": {}, "points": {{"relative": 0.0123}}, "half_width": {{"relative": 0.001}},
+            "alone_points": {{"relative": null}}, "precompute_saved_s": 4.25, "relight_saved_ms": 7.5}})",
+        name, active);
+  };
+  std::ofstream(folder.path / "box_dark/waterfall.json") << fmt::format(
+      R"({{"asked": {{"relative": 0.03}}, "asked_half_width": {{"relative": null}}, "stages": [{}, {}],
+          "remainder": {}, "model": {{"share": {{"relative": 0.2}}, "half_width": {{"relative": 0.01}}}}}})",
+      stage("pruning", true), stage("rounding", false), stage("grain", true));
+  std::ofstream(folder.path / "box_slow/waterfall.json") << "{}";
+  const std::string page = folder.page();
+  const size_t from = page.find("id=explained");
+  ASSERT_NE(from, std::string::npos);
+  const std::string section = page.substr(from, page.find("</section>", from) - from);
+  for (const char* part : {"What the errors consist of", "box_dark/index.html", "pruning", "1.23", "4.25",
+                           "left: grain", "(not simulated)", "20.00"})
+    EXPECT_TRUE(has(section, part)) << part;
+  EXPECT_FALSE(has(section, "rounding"));
+  EXPECT_FALSE(has(section, "box_slow"));
+  EXPECT_TRUE(has(page, "box_slow/waterfall.json: not a waterfall"));
+  EXPECT_TRUE(has(text_of(folder.path / "tables.md"), "pruning"));
+}
+
 TEST(ExperimentPage, LeavesTheTablesAsFiles) {
   const PageFolder folder(planted_methods());
   folder.page();
