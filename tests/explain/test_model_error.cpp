@@ -34,7 +34,7 @@ std::string sphere_obj() {
 // A lamp in the middle of a sphere of albedo a lights it evenly, and so does each bounce, with a times the light
 // of the one before. Of direct light and one bounce the sum of all, L / (1 - a), lacks a^2; of one bounce alone
 // all indirect light, a L / (1 - a), lacks a. Red if the second reference ends after a few bounces (tried: two,
-// 0.17 in place of 0.25), or the share is one of the restricted picture.
+// 0.143 in place of 0.25), or the share is one of the restricted picture.
 TEST(ModelError, IsWhatOneBounceLacksInASphere) {
   const TemporaryFolder folder;
   constexpr double albedo = 0.5;
