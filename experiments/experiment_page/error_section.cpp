@@ -1,5 +1,4 @@
 // What the errors consist of: the waterfalls of `relight explain-error` that lie in the folders of the runs.
-#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -12,12 +11,11 @@ namespace {
 
 using Json = nlohmann::json;
 using tables::TableCell;
-
-TableCell text(const std::string& words) { return {words, TableCell{}.value, "", ""}; }
+using tables::text_cell;
 
 // Nothing where the file has null.
 TableCell number(const Json& json, double factor, int digits) {
-  if (!json.is_number()) return text("");
+  if (!json.is_number()) return text_cell("");
   const double value = factor * json.get<double>();
   return {fmt::format("{:.{}f}", value, digits), value, "", ""};
 }
@@ -30,7 +28,8 @@ class Rows {
       : table_(table), where_(std::move(where)), run_(run.name()), link_(std::move(link)) {}
 
   void add_all(const Json& json) {
-    add("as asked", {percent(json.at("asked")), percent(json.at("asked_half_width")), text(""), text(""), text("")});
+    add("as asked", {percent(json.at("asked")), percent(json.at("asked_half_width")), text_cell(""),
+                     text_cell(""), text_cell("")});
     for (const Json& stage : json.at("stages")) {
       if (!stage.at("active").get<bool>()) continue;
       add(stage.at("stage"),
@@ -39,14 +38,16 @@ class Rows {
     }
     const Json& rest = json.at("remainder");
     add("left: " + rest.at("stage").get<std::string>(),
-        {percent(rest.at("points")), percent(rest.at("half_width")), text(""), text(""), text("")});
+        {percent(rest.at("points")), percent(rest.at("half_width")), text_cell(""), text_cell(""),
+         text_cell("")});
     const Json& model = json.at("model");
-    add("(not simulated)", {percent(model.at("share")), percent(model.at("half_width")), text(""), text(""), text("")});
+    add("(not simulated)", {percent(model.at("share")), percent(model.at("half_width")), text_cell(""),
+                            text_cell(""), text_cell("")});
   }
 
  private:
   void add(const std::string& stage, const std::vector<TableCell>& cells) {
-    std::vector<TableCell> row = {text(where_), {run_, TableCell{}.value, "", link_}, text(stage)};
+    std::vector<TableCell> row = {text_cell(where_), {run_, TableCell{}.value, "", link_}, text_cell(stage)};
     row.insert(row.end(), cells.begin(), cells.end());
     table_.rows.push_back(std::move(row));
   }
@@ -59,9 +60,14 @@ class Rows {
 Table explained_table(const Results& results, const std::vector<RunFolder>& folders,
                       std::vector<std::string>& warnings) {
   Table table{"explained", "What the errors consist of, in points of relative error", {}, {}, ""};
-  table.columns = {{"where", false},  {"run", false},    {"stage", false},
-                   {"points", true},  {"+-", true},      {"alone", true},
-                   {"saves precompute s", true}, {"saves relight ms", true}};
+  table.columns = {{"where", false},
+                   {"run", false},
+                   {"stage", false},
+                   {"points", true},
+                   {"+-", true},
+                   {"alone", true},
+                   {"saves precompute s", true},
+                   {"saves relight ms", true}};
   for (const tables::Group& group : results.groups)
     for (const tables::Point& p : group.points) {
       const std::filesystem::path file = folders[p.record].path / "waterfall.json";
@@ -71,14 +77,17 @@ Table explained_table(const Results& results, const std::vector<RunFolder>& fold
       try {
         Rows(rows, group.title(), p, folders[p.record].link).add_all(Json::parse(in));
       } catch (const Json::exception& error) {
-        warnings.push_back(fmt::format("{}: not a waterfall of explain-error of this version: {}", file.string(), error.what()));
+        warnings.push_back(fmt::format("{}: not a waterfall of explain-error of this version: {}",
+                                       file.string(), error.what()));
         continue;
       }
       table.rows.insert(table.rows.end(), rows.rows.begin(), rows.rows.end());
     }
   table.note =
-      "On some pixels spread over the view (relight explain-error): the points of the stages and of what is left "
-      "add up to the error as asked. Alone: the stage with all others exact. Saves: against its exact twin, on these pixels only. "
+      "On some pixels spread over the view (relight explain-error): the points of the stages and of what is "
+      "left "
+      "add up to the error as asked. Alone: the stage with all others exact. Saves: against its exact twin, "
+      "on these pixels only. "
       "Not simulated: light that the method does not carry, of the picture of every light path; no part of "
       "the error.";
   return table;

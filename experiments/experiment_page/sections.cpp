@@ -14,13 +14,12 @@ namespace relight::page {
 using report::escaped;
 using tables::Group;
 using tables::TableCell;
+using tables::text_cell;
 
 namespace {
 
-TableCell text(const std::string& words) { return {words, TableCell{}.value, "", ""}; }
-
 TableCell percent(const std::optional<LossInterval>& loss) {
-  if (!loss) return text("-");
+  if (!loss) return text_cell("-");
   return {fmt::format("{:.3g} % ({:.3g} … {:.3g})", 100 * loss->value, 100 * loss->low, 100 * loss->high),
           100 * loss->value, "", ""};
 }
@@ -28,18 +27,19 @@ TableCell percent(const std::optional<LossInterval>& loss) {
 void add_decisions(Table& table, const Group& group, const tables::Point& p, const EffectPlan& plan) {
   for (const EffectDecision& d : plan.effects) {
     const bool user_set = d.settings.empty();
-    table.rows.push_back({text(group.title()), text(p.name()), text(d.effect),
-                          text(fmt::format("{} of {}", d.level, d.everything)), text(to_string(d.by)),
-                          percent(user_set ? std::nullopt : std::optional(d.loss)), percent(d.measured),
-                          text(d.reason)});
+    table.rows.push_back(
+        {text_cell(group.title()), text_cell(p.name()), text_cell(d.effect),
+         text_cell(fmt::format("{} of {}", d.level, d.everything)), text_cell(to_string(d.by)),
+         percent(user_set ? std::nullopt : std::optional(d.loss)), percent(d.measured), text_cell(d.reason)});
   }
   const auto& check = plan.check;
-  table.rows.push_back({text(group.title()), text(p.name()), text("whole plan"),
-                        text(fmt::format("tolerance {:.3g} %", 100 * plan.tolerance)), text(""),
-                        percent(plan.loss), percent(check ? std::optional(check->measured) : std::nullopt),
-                        text(check ? fmt::format("{}, {}", to_string(check->verdict),
-                                                 check->as_predicted ? "as predicted" : "not as predicted")
-                                   : "not checked")});
+  table.rows.push_back(
+      {text_cell(group.title()), text_cell(p.name()), text_cell("whole plan"),
+       text_cell(fmt::format("tolerance {:.3g} %", 100 * plan.tolerance)), text_cell(""), percent(plan.loss),
+       percent(check ? std::optional(check->measured) : std::nullopt),
+       text_cell(check ? fmt::format("{}, {}", to_string(check->verdict),
+                                     check->as_predicted ? "as predicted" : "not as predicted")
+                       : "not checked")});
 }
 
 Table effects_table(const Results& results) {
@@ -64,8 +64,8 @@ Table not_simulated_table(const Results& results) {
   Table table{"not_simulated", "Light that the methods leave out", {}, {}, ""};
   table.columns = {{"method", false}, {"not simulated", false}, {"on", false}};
   for (const auto& [what, where] : scenes)
-    table.rows.push_back(
-        {text(what.first), text(what.second), text(fmt::format("{}", fmt::join(where, ", ")))});
+    table.rows.push_back({text_cell(what.first), text_cell(what.second),
+                          text_cell(fmt::format("{}", fmt::join(where, ", ")))});
   table.note =
       "Each run is compared with the reference restricted to the light paths that the method carries: what "
       "it leaves out is not part of its error.";

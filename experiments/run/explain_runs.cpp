@@ -44,8 +44,7 @@ std::vector<size_t> runs_to_explain(const RunList& list, const std::filesystem::
   std::vector<size_t> places;
   for (size_t i = 0; i < list.runs.size(); ++i) {
     const PlannedRun& run = list.runs[i];
-    if (run.explain_pixels > 0 &&
-        (again || !has_explanation(out / folder_name(run) / "waterfall.json", run)))
+    if (run.explain_pixels > 0 && (again || !has_explanation(out / folder_name(run) / "waterfall.json", run)))
       places.push_back(i);
   }
   return places;

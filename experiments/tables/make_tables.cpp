@@ -11,8 +11,6 @@
 namespace relight::tables {
 namespace {
 
-TableCell text_cell(const std::string& text) { return {text, TableCell{}.value, "", ""}; }
-
 TableCell error_cell(const Measured& error) {
   return {error.known() ? error_text(error) : "-", 100 * error.value, "", ""};
 }

@@ -15,6 +15,8 @@ struct TableCell {
   std::string link;                              // relative address
 };
 
+inline TableCell text_cell(const std::string& text) { return {text, TableCell{}.value, "", ""}; }
+
 struct TableColumn {
   std::string title;
   bool number = false;  // aligned to the right

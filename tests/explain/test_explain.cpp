@@ -5,32 +5,10 @@
 
 #include "experiments/explain/explain.h"
 #include "experiments/usage_error.h"
-#include "planted_method.h"
-#include "tests/cli/program.h"
+#include "explaining.h"
 
 namespace relight::test {
 namespace {
-
-struct Explaining {
-  MethodList methods;
-  ExplainOptions options;
-  TemporaryFolder folder;
-
-  explicit Explaining(const std::vector<std::string>& wrong, const std::string& broken = "") {
-    methods.push_back(make_planted_method(broken));
-    options.method = "planted";
-    options.session.scene = "cornell";
-    options.session.lights = "omni";
-    options.session.view = "24x16";
-    options.session.quiet = true;
-    options.reference_samples = 512;
-    options.pixels = 128;
-    options.repeats = 1;
-    options.out = folder / "out";
-    for (const std::string& knob : wrong) options.settings.push_back("planted." + knob + "=wrong");
-  }
-  Explanation run() const { return explain(make_explain_plan(options, methods)); }
-};
 
 // One wrong stage: it and no other is blamed, alone as in the chain, and what is left is the noise of two
 // path traced pictures. Indirect light times 0.8 is an error of 0.2 of the indirect light; noise moves that

@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "experiments/explain/explain.h"
-#include "planted_method.h"
-#include "tests/cli/program.h"
+#include "explaining.h"
 
 namespace relight::test {
 namespace {
@@ -26,37 +24,31 @@ std::string sphere_obj() {
   for (int p = 0; p < parallels; ++p)
     for (int m = 0; m < meridians; ++m) {
       if (p > 0) obj += fmt::format("f {} {} {}\n", index(p, m), index(p + 1, m + 1), index(p, m + 1));
-      if (p + 1 < parallels) obj += fmt::format("f {} {} {}\n", index(p, m), index(p + 1, m), index(p + 1, m + 1));
+      if (p + 1 < parallels)
+        obj += fmt::format("f {} {} {}\n", index(p, m), index(p + 1, m), index(p + 1, m + 1));
     }
   return obj;
 }
 
-// A lamp in the middle of a sphere of albedo a lights it evenly, and so does each bounce, with a times the light
-// of the one before. Of direct light and one bounce the sum of all, L / (1 - a), lacks a^2; of one bounce alone
-// all indirect light, a L / (1 - a), lacks a. Red if the second reference ends after a few bounces (tried: two,
-// 0.143 in place of 0.25), or the share is one of the restricted picture.
+// A lamp in the middle of a sphere of albedo a lights it evenly, and so does each bounce, with a times the
+// light of the one before. Of direct light and one bounce the sum of all, L / (1 - a), lacks a^2; of one
+// bounce alone all indirect light, a L / (1 - a), lacks a. Red if the second reference ends after a few
+// bounces (tried: two, 0.143 in place of 0.25), or the share is one of the restricted picture.
 TEST(ModelError, IsWhatOneBounceLacksInASphere) {
   const TemporaryFolder folder;
   constexpr double albedo = 0.5;
   write_text(folder / "sphere.obj", sphere_obj());
-  write_text(folder / "sphere.toml",
-             fmt::format("[[mesh]]\nfile = 'sphere.obj'\n[[material]]\nname = 'DefaultMaterial'\ndiffuse = {}\n"
-                         "[camera]\neye = [0.3, 0.1, 0]\ntarget = [-1, 0, 0]\nup = [0, 1, 0]\n"
-                         "[[lighting.lamp]]\ntype = 'omni'\nposition = [0, 0, 0]\nintensity = 0.5\n",
-                         albedo));
-  MethodList methods;
-  methods.push_back(make_planted_method());
-  ExplainOptions options;
-  options.method = "planted";
-  options.session.scene = folder / "sphere.toml";
-  options.session.lights = "lamp";
-  options.session.view = "32x32";
-  options.session.quiet = true;
-  options.reference_samples = 1024;
-  options.pixels = 64;
-  options.repeats = 1;
-  options.out = folder / "out";
-  const Explanation e = explain(make_explain_plan(options, methods));
+  write_text(
+      folder / "sphere.toml",
+      fmt::format("[[mesh]]\nfile = 'sphere.obj'\n[[material]]\nname = 'DefaultMaterial'\ndiffuse = {}\n"
+                  "[camera]\neye = [0.3, 0.1, 0]\ntarget = [-1, 0, 0]\nup = [0, 1, 0]\n"
+                  "[[lighting.lamp]]\ntype = 'omni'\nposition = [0, 0, 0]\nintensity = 0.5\n",
+                  albedo));
+  Explaining explaining({});
+  explaining.options.session.scene = folder / "sphere.toml";
+  explaining.options.session.lights = "lamp";
+  explaining.options.session.view = "32x32";
+  const Explanation e = explaining.run();
   EXPECT_NEAR(e.model.share[Measure::relative], albedo * albedo, 0.01);
   EXPECT_NEAR(e.model.share[Measure::indirect_linear], albedo, 0.01);
   EXPECT_LT(e.model.half_width[Measure::relative], 0.01);
