@@ -144,6 +144,8 @@ RunRecord record_from(const Json& json) {
   json.at("height").get_to(record.height);
   json.at("triangles").get_to(record.triangles);
   json.at("scene_hash").get_to(record.scene_hash);
+  record.view_hash = json.value("view_hash", "");
+  record.lighting_hash = json.value("lighting_hash", "");
   if (json.contains("effect_plan")) record.effect_plan = effect_plan_from_json(json["effect_plan"].dump());
   if (json.contains("errors")) record.errors = errors_from_json(json["errors"]);
   if (json.contains("errors_indirect")) record.errors_indirect = errors_from_json(json["errors_indirect"]);
@@ -186,7 +188,9 @@ std::string record_to_json(const RunRecord& record) {
                {"width", record.width},
                {"height", record.height},
                {"triangles", record.triangles},
-               {"scene_hash", record.scene_hash}};
+               {"scene_hash", record.scene_hash},
+               {"view_hash", record.view_hash},
+               {"lighting_hash", record.lighting_hash}};
   if (!record.repeatable) json["repeatable"] = false;
   if (record.effect_plan) json["effect_plan"] = Json::parse(effect_plan_to_json(*record.effect_plan));
   if (record.errors) json["errors"] = errors_to_json(*record.errors);

@@ -50,6 +50,8 @@ struct RunRecord {
   int width = 0, height = 0;
   int64_t triangles = 0;
   std::string scene_hash;  // content hash of the scene
+  // Of camera and size, and of the lights, which scene_hash does not hold; older records: empty.
+  std::string view_hash, lighting_hash;
 
   // How wrong it is; absent when the run failed before an image, or without a reference.
   std::optional<ErrorReport> errors;           // of the total image

@@ -26,4 +26,8 @@ struct Camera {
   }
 };
 
+// Of the name of a view.
+inline constexpr const char* view_name_characters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
 }  // namespace relight

@@ -113,8 +113,12 @@ void describe_lighting(const Scene& scene, std::string& text) {
     fmt::format_to(out, "environment    {} ({} x {}) times {}, turned {:.4g} degrees\n", e.file, e.width,
                    e.height, show(e.radiance), glm::degrees(e.rotation_y));
   fmt::format_to(out, "exposure       {:.4g}\n", scene.exposure);
-  fmt::format_to(out, "camera         eye {}, target {}, fov {:.4g} degrees\n", show(scene.camera.eye),
-                 show(scene.camera.target), scene.camera.fov_y_degrees);
+  const auto describe_camera = [&](const std::string& what, const Camera& camera) {
+    fmt::format_to(out, "{:<14} eye {}, target {}, fov {:.4g} degrees\n", what, show(camera.eye),
+                   show(camera.target), camera.fov_y_degrees);
+  };
+  describe_camera("camera", scene.camera);
+  for (const auto& [name, camera] : scene.views) describe_camera("view " + name, camera);
   fmt::format_to(out, "lightings      {}\n", scene.lightings.size());
   for (const auto& [name, lighting] : scene.lightings) {
     fmt::format_to(out, "  {}{}\n", name, describe_time(lighting));

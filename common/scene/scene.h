@@ -47,6 +47,7 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<std::string> object_names;
   Camera camera;
+  std::map<std::string, Camera> views;  // further cameras by name; `--view NAME:640x480` chooses one
   float exposure = 1.0f;  // fixed factor applied to radiance before the clamp of the `relative` metric
   std::map<std::string, LightingState> lightings;  // named presets ("spot", "omni", ...)
   Environment environment;

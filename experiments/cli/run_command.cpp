@@ -1,8 +1,10 @@
 // relight run
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
@@ -56,8 +58,10 @@ int run(RunOptions options) {
   RunList list = make_runs(experiment, options.session, methods, out);
   if (!options.only.empty()) keep_only(list, options.only);
   if (options.place >= 0) return run_as_worker(std::move(list), out, options);
+  std::set<std::string> views;
+  for (const PlannedRun& run : list.runs) views.insert(run.plan.session.view);
   fmt::print("{}: {}\n{} runs, view {}\n", experiment.name, experiment.title, list.runs.size(),
-             experiment.view);
+             fmt::join(views, ", "));
   for (const std::string& left_out : list.left_out) fmt::print("left out: {}\n", left_out);
   if (options.dry_run) return dry_run(options, list, out);
   std::fflush(stdout);  // before others write

@@ -54,10 +54,11 @@ void add_export_command(CLI::App& parent, Action& action) {
   command->add_option("--format", options->format, "For which renderer")->required()->type_name("mitsuba");
   command
       ->add_option("--lights", mitsuba.lights,
-                   "Lighting preset of the scene (see `relight scene info`), or a file")
-      ->type_name("PRESET|FILE");
-  command->add_option("--view", mitsuba.view, "Size of the picture in pixels")
-      ->type_name("WxH")
+                   "Lighting preset of the scene (see `relight scene info`), or a file; with @SECONDS one "
+                   "moment of a lighting that moves")
+      ->type_name("PRESET|FILE[@SECONDS]");
+  command->add_option("--view", mitsuba.view, "Size of the picture in pixels, NAME: before it for a view")
+      ->type_name("[NAME:]WxH")
       ->capture_default_str();
   command->add_option("--max-bounces", mitsuba.max_bounces, "Bounces of indirect light, 0: direct light only")
       ->type_name("N")

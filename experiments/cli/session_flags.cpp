@@ -10,14 +10,18 @@ void add_session_flags(CLI::App& command, SessionOptions& options) {
                   "Built-in scene with parameters (see `relight scene list`), or a file")
       ->required()
       ->type_name("NAME|FILE");
-  command.add_option("--view", options.view, "Size of the picture in pixels")
-      ->type_name("WxH")
+  command
+      .add_option("--view", options.view,
+                  "Size of the picture in pixels; NAME: before it chooses a view of the scene (see `relight "
+                  "scene info`) in place of its camera")
+      ->type_name("[NAME:]WxH")
       ->capture_default_str();
   command
       .add_option("--lights", options.lights,
-                  "Lighting preset of the scene (see `relight scene info`), or a file")
-      ->type_name("PRESET|FILE");
-  command.add_option("--at", options.time, "Time of an animated lighting")
+                  "Lighting preset of the scene (see `relight scene info`), or a file; with @SECONDS one "
+                  "moment of a lighting that moves")
+      ->type_name("PRESET|FILE[@SECONDS]");
+  command.add_option("--at", options.time, "Time of a lighting that moves, as --lights NAME@SECONDS says it")
       ->type_name("SECONDS")
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();

@@ -7,6 +7,7 @@
 #include "common/run/peak_memory.h"
 #include "common/scene/scene_file.h"
 #include "experiments/compare/not_simulated.h"
+#include "experiments/options/parse.h"
 
 namespace relight {
 
@@ -33,8 +34,10 @@ RunRecord describe_run(const ComparePlan& plan, const MethodPlan& method, Sessio
   const View& view = session.buffer().view;
   RunRecord record;
   record.scene = plan.session.scene;
-  record.view = fmt::format("{}x{}", view.width, view.height);
+  record.view = to_string(parse_view(plan.session.view));
+  record.view_hash = view_hash(view);
   record.lighting = session.lighting_name();
+  record.lighting_hash = lighting_hash(session.lighting());
   record.method = method.method->name();
   record.preset = method.preset;
   record.knobs = method.knobs.all();

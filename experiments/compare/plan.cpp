@@ -136,7 +136,6 @@ std::string command_line(const ComparePlan& plan, const std::string& lights,
   add_option(command, "--reference-samples", std::to_string(plan.reference_samples));
   add_option(command, "--reference-estimator", to_string(plan.reference_estimator));
   if (plan.repeats > 0) add_option(command, "--repeats", std::to_string(plan.repeats));
-  if (plan.session.time != 0.0) add_option(command, "--at", fmt::format("{}", plan.session.time));
   add_option(command, "--seed", std::to_string(plan.session.seed));
   if (plan.session.threads > 0) add_option(command, "--threads", std::to_string(plan.session.threads));
   add_option(command, "--gpu", plan.session.gpu);

@@ -12,6 +12,7 @@
 #include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
 #include "experiments/tables/paper_numbers.h"
+#include "experiments/tables/sequences.h"
 
 namespace relight {
 
@@ -62,6 +63,8 @@ std::string page_text(const ExperimentDescription& about, const tables::Results&
       title, report::style_sheet, page::style_sheet, report::escaped(about.name), results.records.size());
   html += who_wins_section(results) + "\n" + accuracy_section(results) + "\n";
   html += "<section id=all-runs><h2>All runs</h2>" + page::html(tables::runs_table(results)) + "</section>\n";
+  if (const tables::Table moving = tables::sequence_table(results); !moving.rows.empty())
+    html += "<section id=sequences><h2>Light sequences</h2>" + page::html(moving) + "</section>\n";
   html += explained_section(explained) + paper_section(papers);
   html += failures(results, about.left_out) + "\n" + left_out_section(results, about.left_out) + "\n" +
           provenance_section(results, warnings);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/image/exr.h"
+#include "common/run/atomic_file.h"
 #include "experiments/experiment_page/page_parts.h"
 #include "experiments/report/report.h"
 
@@ -64,8 +65,10 @@ std::vector<RunFolder> write_run_pages(const fs::path& folder, const std::vector
     const auto image = images.find(records[i].command);
     if (records[i].command.empty() || image == images.end()) continue;
     const fs::path run_folder = image->second.parent_path(), page = run_folder / "index.html";
-    if (run_pages == RunPages::all || !up_to_date(page, image->second))
+    if (run_pages == RunPages::all || !up_to_date(page, image->second)) {
+      remove_leftovers(run_folder);
       write_report(run_folder, {records[i]}, "../index.html");
+    }
     folders[i] = {run_folder, as_address((run_folder.filename() / "index.html").generic_string())};
   }
   return folders;

@@ -3,6 +3,7 @@
 
 #include "common/run/atomic_file.h"
 #include "experiments/experiment_page/page_parts.h"
+#include "experiments/tables/sequences.h"
 #include "experiments/tables/winners.h"
 
 namespace relight::page {
@@ -41,6 +42,8 @@ void write_table_files(const std::filesystem::path& folder, const ExperimentDesc
                        const Results& results, const std::vector<Table>& more) {
   std::vector<Table> shown = main_tables(results), all = every_table(results);
   shown.push_back(runs_table(results)), all.push_back(runs_table(results));
+  if (const Table moving = sequence_table(results); !moving.rows.empty())
+    shown.push_back(moving), all.push_back(moving);
   for (const Table& table : more) shown.push_back(table), all.push_back(table);
   std::string md = fmt::format("# {}\n\n", description.title), tex, js;
   for (const std::string& sentence : who_wins(results.groups)) md += sentence + "\n\n";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/lights/light_animation.h"
 #include "common/run/atomic_file.h"
 #include "experiments/mitsuba/bsdfs.h"
 #include "experiments/mitsuba/emitters.h"
@@ -33,18 +34,18 @@ void write_integrator(XmlWriter& xml, int max_bounces) {
 }
 
 // A box filter and square pixels, as the reference has them.
-void write_film(XmlWriter& xml, const ViewSize& size) {
+void write_film(XmlWriter& xml, const View& view) {
   xml.open("film", {{"type", "hdrfilm"}});
-  xml.value("integer", "width", std::to_string(size.width));
-  xml.value("integer", "height", std::to_string(size.height));
+  xml.value("integer", "width", std::to_string(view.width));
+  xml.value("integer", "height", std::to_string(view.height));
   xml.value("string", "pixel_format", "rgb");
   xml.value("string", "component_format", "float32");
   xml.leaf("rfilter", {{"type", "box"}});
   xml.close();
 }
 
-void write_sensor(XmlWriter& xml, const Scene& scene, const ViewSize& size) {
-  const Camera& camera = scene.camera;
+void write_sensor(XmlWriter& xml, const Scene& scene, const View& view) {
+  const Camera& camera = view.camera;
   // Nothing may be cut off: the planes lie far outside of what the scene can hold.
   const float reach = scene.bounds.diagonal() + glm::length(scene.bounds.centre() - camera.eye);
   xml.open("sensor", {{"type", "perspective"}});
@@ -57,7 +58,7 @@ void write_sensor(XmlWriter& xml, const Scene& scene, const ViewSize& size) {
            {{"origin", text_of(camera.eye)}, {"target", text_of(camera.target)}, {"up", text_of(camera.up)}});
   xml.close();
   xml.leaf("sampler", {{"type", "multijitter"}});
-  write_film(xml, size);
+  write_film(xml, view);
   xml.close();
 }
 
@@ -76,26 +77,27 @@ std::string summary(const Scene& scene, const std::filesystem::path& out, const 
 }  // namespace
 
 std::string export_mitsuba(const MitsubaExportOptions& options) {
-  const ViewSize size = parse_view(options.view);
+  parse_view(options.view);
   if (options.max_bounces < 0 || options.max_bounces > most_bounces)
     usage_fail("--max-bounces {}: expected 0 (direct light only) to {}", options.max_bounces, most_bounces);
   require_writable_folder("--out", options.out);
   const Scene scene = load_named_scene(options.scene);
   mitsuba::require_known_models(scene);
-  const std::string preset = choose_lighting(scene, options.lights);
-  const LightingState lighting = load_named_lighting(scene, preset);
+  const View view = choose_view(scene, options.view);
+  const ChosenLighting chosen = choose_lights(scene, options.lights);
+  const LightingState lighting = lighting_at(chosen.animated, chosen.time);
   const std::filesystem::path out = options.out;
 
   std::vector<std::string> warnings;
   XmlWriter xml;
-  xml.comment(fmt::format("scene '{}', lights '{}', exported by relight", options.scene, preset));
+  xml.comment(fmt::format("scene '{}', lights '{}', exported by relight", options.scene, chosen.name));
   xml.comment(
       fmt::format("lengths in scene units, radiance in W/(m^2 sr), linear RGB; for display, relight "
                   "multiplies by the exposure {}",
                   scene.exposure));
   xml.open("scene", {{"version", "3.0.0"}});
   write_integrator(xml, options.max_bounces);
-  write_sensor(xml, scene, size);
+  write_sensor(xml, scene, view);
   for (size_t i = 0; i < scene.materials.size(); ++i) mitsuba::write_bsdf(xml, scene, i, out);
   const mitsuba::ShapeCounts shapes = mitsuba::write_shapes(xml, scene, out);
   for (size_t i = 0; i < lighting.lights.size(); ++i)

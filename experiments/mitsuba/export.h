@@ -8,7 +8,7 @@ namespace relight {
 
 struct MitsubaExportOptions {
   std::string scene;   // built-in name with parameters, or a file
-  std::string lights;  // preset or file; empty: the scene's only or default preset
+  std::string lights;  // as SessionOptions has it
   std::string view = "640x480";
   int max_bounces = 8;  // of indirect light
   std::string out;      // folder

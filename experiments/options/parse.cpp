@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "experiments/usage_error.h"
@@ -11,6 +12,7 @@ namespace relight {
 namespace {
 
 constexpr int max_side = 16384;  // beyond it pixel indices of the 2x2 sub-pixels leave 32 bits
+constexpr int max_moments = 10000;
 constexpr int max_bounces = 64;  // beyond it nothing visible is left at any albedo below 0.9
 
 std::optional<int> whole_number(const std::string& text) {
@@ -20,18 +22,58 @@ std::optional<int> whole_number(const std::string& text) {
   return value;
 }
 
+std::optional<double> number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 }  // namespace
 
-ViewSize parse_view(const std::string& text) {
-  const size_t x = text.find('x');
-  const auto width = x == std::string::npos ? std::nullopt : whole_number(text.substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : whole_number(text.substr(x + 1));
-  if (!width || !height) usage_fail("--view '{}': expected WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+ViewChoice parse_view(const std::string& text) {
+  const size_t colon = text.find(':');
+  const std::string camera = colon == std::string::npos ? "" : text.substr(0, colon);
+  const std::string size = colon == std::string::npos ? text : text.substr(colon + 1);
+  const size_t x = size.find('x');
+  const auto width = x == std::string::npos ? std::nullopt : whole_number(size.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : whole_number(size.substr(x + 1));
+  if (!width || !height || colon == 0)
+    usage_fail("--view '{}': expected WIDTHxHEIGHT in pixels, e.g. 640x480, or NAME:WIDTHxHEIGHT", text);
   if (*width < 1 || *width > max_side || *height < 1 || *height > max_side) {
     usage_fail("--view '{}': each side must lie in 1..{} pixels", text, max_side);
   }
-  return {*width, *height};
+  return {camera, *width, *height};
 }
+
+std::string to_string(const ViewChoice& view) {
+  return fmt::format("{}{}{}x{}", view.camera, view.camera.empty() ? "" : ":", view.width, view.height);
+}
+
+LightsChoice parse_lights(const std::string& text) {
+  const size_t at = text.rfind('@');
+  if (at == std::string::npos || at == 0) return {text, {}};
+  std::vector<double> numbers;
+  for (size_t begin = at + 1; begin <= text.size();) {
+    const size_t end = std::min(text.find(':', begin), text.size());
+    const auto value = number(text.substr(begin, end - begin));
+    if (!value) return {text, {}};
+    numbers.push_back(*value);
+    begin = end + 1;
+  }
+  if (numbers.size() == 1) return {text.substr(0, at), numbers};
+  if (numbers.size() != 3) return {text, {}};
+  const double first = numbers[0], last = numbers[1], step = numbers[2];
+  if (!(step > 0.0) || !(first <= last) || !((last - first) / step < max_moments))
+    usage_fail("lights '{}': expected NAME@FIRST:LAST:STEP in seconds, FIRST <= LAST, at most {} moments", text,
+               max_moments);
+  LightsChoice choice{text.substr(0, at), {}};
+  const double slack = 1e-9 * step;  // so that 0:0.3:0.1 ends with 0.3
+  for (int i = 0; first + i * step <= last + slack; ++i) choice.times.push_back(first + i * step);
+  return choice;
+}
+
+std::string lights_at(const std::string& name, double time) { return fmt::format("{}@{:.12g}", name, time); }
 
 BounceRange parse_bounces(const std::string& text, int least) {
   const size_t dots = text.find("..");

@@ -11,11 +11,23 @@
 
 namespace relight {
 
-struct ViewSize {
+struct ViewChoice {
+  std::string camera;             // a view of the scene; empty: its camera
   int width = 640, height = 480;  // pixels, each in [1, 16384]
 };
-// "640x480".
-ViewSize parse_view(const std::string& text);
+// "640x480" or "gallery:640x480".
+ViewChoice parse_view(const std::string& text);
+std::string to_string(const ViewChoice& view);
+
+// One or several moments of a lighting that moves.
+struct LightsChoice {
+  std::string name;           // preset or file
+  std::vector<double> times;  // [s]; empty: none was given
+};
+// "spot", "sweep@0.5", "sweep@0:4:0.5": the first, the last and the step. What follows the last '@' is part
+// of the name if it looks like neither.
+LightsChoice parse_lights(const std::string& text);
+std::string lights_at(const std::string& name, double time);  // "sweep@0.5"
 
 struct BounceRange {
   int min = 1, max = 1;  // min <= max <= 64

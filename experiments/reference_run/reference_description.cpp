@@ -36,11 +36,10 @@ Json layers_json(const PathTracerResult& result) {
 
 Json describe_reference(const Session& session, const PathTracerSettings& settings,
                         const PathTracerResult& result, const ErrorReport& report) {
-  const View& view = session.buffer().view;
   const Provenance p = collect_provenance("", "");
   Json json = {{"scene", session.options().scene},
                {"scene_hash", fmt::format("{:016x}", session.scene().content_hash)},
-               {"view", fmt::format("{}x{}", view.width, view.height)},
+               {"view", to_string(parse_view(session.options().view))},
                {"lighting", session.lighting_name()},
                {"light_paths", settings.paths.to_string()},
                {"pattern", settings.pattern},

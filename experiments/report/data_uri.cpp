@@ -3,6 +3,9 @@
 #include <fstream>
 #include <iterator>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <glm/gtc/packing.hpp>
 #include <glm/gtc/type_precision.hpp>
 
@@ -30,6 +33,11 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 
 namespace {
 
+// Named like the files that remove_leftovers() takes away if the program is killed here.
+std::filesystem::path scratch_file(const std::filesystem::path& folder) {
+  return folder / fmt::format(".relight-page-image.{}-0.tmp.png", getpid());
+}
+
 // Of the file, which is removed.
 std::string uri_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -43,7 +51,7 @@ std::string uri_of(const std::filesystem::path& file) {
 }  // namespace
 
 std::string png_data_uri(const Image& image, float exposure, const std::filesystem::path& scratch) {
-  const std::filesystem::path file = scratch / ".relight-page-image.png";
+  const std::filesystem::path file = scratch_file(scratch);
   write_png(file, image, exposure);
   return uri_of(file);
 }
@@ -59,7 +67,7 @@ std::string half_planes_uri(const Image& image, const std::filesystem::path& scr
     }
   OIIO::ImageSpec spec(image.width, 2 * image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");  // what a canvas has: the browser changes nothing
-  const std::filesystem::path file = scratch / ".relight-page-image.png";
+  const std::filesystem::path file = scratch_file(scratch);
   write_encoded(file, spec, bytes.data());
   return uri_of(file);
 }

@@ -19,7 +19,7 @@ int64_t memory_budget() { return static_cast<int64_t>(sysconf(_SC_PHYS_PAGES)) *
 
 std::string session_key(const PlannedRun& run) {
   const SessionOptions& s = run.plan.session;
-  return fmt::format("{}\n{}\n{}", s.scene, s.lights, s.seed);
+  return fmt::format("{}\n{}\n{}\n{}", s.scene, s.lights, s.view, s.seed);
 }
 
 bool checks_effects(const PlannedRun& run) { return run.plan.effects && run.plan.effects->check; }
@@ -38,6 +38,7 @@ RunRecord empty_record(const PlannedRun& run) {
   record.scene = run.plan.session.scene, record.lighting = run.plan.session.lights;
   record.view = run.plan.session.view, record.seed = run.plan.session.seed;
   record.scene_hash = run.scene_hash;
+  record.view_hash = run.view_hash, record.lighting_hash = run.lighting_hash;
   const MethodPlan& method = run.plan.methods.front();
   record.method = method.method->name(), record.preset = method.preset, record.knobs = method.knobs.all();
   return record;

@@ -14,7 +14,8 @@ namespace relight {
 // One [[runs]] table: the product of its lists.
 struct RunGroup {
   std::vector<std::string> scenes;  // built-in names or files
-  std::vector<std::string> lights;  // presets of the scenes, or files
+  std::vector<std::string> lights;  // presets of the scenes, or files; "sweep@0", "sweep@0.5" if they move
+  std::vector<std::string> views;   // "640x480", "gallery:640x480"
   std::vector<std::string> presets;
   std::vector<std::string> seeds;
   std::string method;
@@ -28,7 +29,7 @@ struct RunGroup {
 struct Experiment {
   std::string name;   // file name without .toml
   std::string title;  // one sentence
-  std::string view;
+  std::vector<std::string> views;  // of groups that name none
   int reference_samples = 128;
   int repeats = 0;
   std::vector<std::filesystem::path> paper_numbers;  // files of a paper's figures, to stand beside ours
@@ -43,8 +44,9 @@ Experiment read_experiment(const std::filesystem::path& file);
 // One run of the expanded product.
 struct PlannedRun {
   ComparePlan plan;        // of one method; session.scene, lights, seed, view set
-  std::string label;       // for people and folder names: preset, knobs that the file sets, seed
+  std::string label;       // for people and folder names: preset, knobs that the file sets, seed, view
   std::string scene_hash;  // content hash of the scene
+  std::string view_hash, lighting_hash;
   int64_t explain_pixels = 0;
 };
 

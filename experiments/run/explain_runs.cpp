@@ -24,7 +24,8 @@ ExplainPlan plan_of(const PlannedRun& run, const std::filesystem::path& out) {
 bool explains(const nlohmann::json& json, const PlannedRun& run) {
   const nlohmann::json& made = json.at("run");
   return json.at("pixels_asked") == run.explain_pixels && made.at("scene_hash") == run.scene_hash &&
-         made.at("view") == run.plan.session.view && made.at("seed") == run.plan.session.seed &&
+         made.value("view_hash", "") == run.view_hash &&
+         made.value("lighting_hash", "") == run.lighting_hash && made.at("seed") == run.plan.session.seed &&
          made.at("knobs") == nlohmann::json(run.plan.methods.front().knobs.all());
 }
 

@@ -11,7 +11,7 @@ namespace relight {
 namespace {
 
 double pixels_of(const std::string& view) {
-  const ViewSize size = parse_view(view);
+  const ViewChoice size = parse_view(view);
   return static_cast<double>(size.width) * static_cast<double>(size.height);
 }
 

@@ -34,7 +34,7 @@ size_t number_of_precomputes(const std::vector<PlannedRun>& runs) {
     const SessionOptions& s = run.plan.session;
     const MethodPlan& method = run.plan.methods.front();
     keys.insert(
-        fmt::format("{}\n{}\n{}\n{}", s.scene, s.seed, method.method->name(), method.knobs.precompute_key()));
+        fmt::format("{}\n{}\n{}\n{}\n{}", s.scene, s.view, s.seed, method.method->name(), method.knobs.precompute_key()));
   }
   return keys.size();
 }
@@ -44,7 +44,7 @@ int64_t image_bytes(const std::vector<PlannedRun>& runs, const std::vector<bool>
   int64_t bytes = 0;
   for (size_t i = 0; i < runs.size(); ++i) {
     if (done[i]) continue;
-    const ViewSize size = parse_view(runs[i].plan.session.view);
+    const ViewChoice size = parse_view(runs[i].plan.session.view);
     bytes += images_a_run * 12 * static_cast<int64_t>(size.width) * size.height;
   }
   return bytes;

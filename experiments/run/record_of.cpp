@@ -32,7 +32,8 @@ bool is_record_of(const RunRecord& record, const PlannedRun& run) {
   const MethodPlan& method = run.plan.methods.front();
   const std::optional<KnobValues> knobs = knobs_of(run, record);
   return knobs && record.scene == s.scene && record.lighting == s.lights && record.view == s.view &&
-         record.scene_hash == run.scene_hash && record.seed == s.seed &&
+         record.scene_hash == run.scene_hash && record.view_hash == run.view_hash &&
+         record.lighting_hash == run.lighting_hash && record.seed == s.seed &&
          record.method == method.method->name() && record.knobs == knobs->all() && record.reference &&
          record.reference->samples >= run.plan.reference_samples;
 }

@@ -46,8 +46,8 @@ std::vector<size_t> place_numbers(const RunList& list) {
   std::vector<size_t> out;
   for (const PlannedRun& run : list.runs) {
     const SessionOptions& s = run.plan.session;
-    out.push_back(numbers.try_emplace(fmt::format("{}\n{}\n{}", s.scene, s.lights, s.seed), numbers.size())
-                      .first->second);
+    const std::string place = fmt::format("{}\n{}\n{}\n{}", s.scene, s.lights, s.view, s.seed);
+    out.push_back(numbers.try_emplace(place, numbers.size()).first->second);
   }
   return out;
 }

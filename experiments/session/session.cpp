@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "common/lights/light_animation.h"
+#include "common/lights/light_words.h"
+#include "common/scene/content_hash.h"
 #include "common/scene/scene_file.h"
 #include "experiments/options/parse.h"
 #include "experiments/usage_error.h"
@@ -73,6 +75,50 @@ std::string choose_lighting(const Scene& scene, const std::string& wanted) {
   usage_fail("--lights is needed: scene '{}' has these presets: {}", scene.name, preset_names(scene));
 }
 
+ChosenLighting choose_lights(const Scene& scene, const std::string& wanted, double time) {
+  LightsChoice choice = parse_lights(wanted);
+  if (scene.lightings.contains(wanted) || std::filesystem::exists(wanted)) choice = {wanted, {}};
+  ChosenLighting chosen;
+  chosen.preset = choose_lighting(scene, choice.name);
+  chosen.animated = load_named_lighting(scene, chosen.preset);
+  if (choice.times.size() > 1)
+    usage_fail("--lights '{}': one moment is expected here, e.g. {}", wanted,
+               lights_at(chosen.preset, choice.times.front()));
+  if (!choice.times.empty() && time != 0.0)
+    usage_fail("--lights '{}' and --at {}: two times for one lighting", wanted, time);
+  if (!choice.times.empty() && !chosen.animated.animation)
+    usage_fail("--lights '{}': nothing in '{}' moves (no keyframes)", wanted, chosen.preset);
+  chosen.time = choice.times.empty() ? time : choice.times.front();
+  chosen.name = chosen.animated.animation ? lights_at(chosen.preset, chosen.time) : chosen.preset;
+  return chosen;
+}
+
+View choose_view(const Scene& scene, const std::string& wanted) {
+  const ViewChoice choice = parse_view(wanted);
+  if (choice.camera.empty()) return {scene.camera, choice.width, choice.height};
+  if (const auto found = scene.views.find(choice.camera); found != scene.views.end())
+    return {found->second, choice.width, choice.height};
+  std::string names;
+  for (const auto& [name, camera] : scene.views) append_name(names, name);
+  usage_fail("--view '{}': scene '{}' has no view '{}'; valid: {}, or the size alone for its camera", wanted,
+             scene.name, choice.camera, names.empty() ? "none" : names);
+}
+
+std::string view_hash(const View& view) {
+  const Camera& c = view.camera;
+  ContentHash hash;
+  for (const glm::vec3& v : {c.eye, c.target, c.up}) hash.add(v);
+  hash.add(c.fov_y_degrees), hash.add(view.width), hash.add(view.height);
+  return fmt::format("{:016x}", hash.value());
+}
+
+std::string lighting_hash(const LightingState& standing_still) {
+  const std::string text = describe(standing_still);
+  ContentHash hash;
+  hash.add_bytes(text.data(), text.size());
+  return fmt::format("{:016x}", hash.value());
+}
+
 ArtefactCache open_cache(const SessionOptions& options) {
   return ArtefactCache(options.cache_folder.empty() ? ArtefactCache::default_folder()
                                                     : std::filesystem::path(options.cache_folder),
@@ -83,17 +129,14 @@ Session::Session(const SessionOptions& options, Gpu gpu)
     : options_(checked(options)),
       threads_(options.threads),
       scene_(timed(setup_, "load_scene", [&] { return load_named_scene(options.scene); })),
-      lighting_name_(choose_lighting(scene_, options.lights)),
-      animated_lighting_(load_named_lighting(scene_, lighting_name_)),
-      lighting_(lighting_at(animated_lighting_, options.time)),
+      chosen_(choose_lights(scene_, options.lights, options.time)),
+      lighting_(lighting_at(chosen_.animated, chosen_.time)),
       cache_(open_cache(options)),
       progress_(options.quiet) {
   if (gpu == Gpu::needed) gpu_ = gpu::Context::create(options.gpu);
   tracer_ = timed(setup_, "build_bvh", [&] { return std::make_unique<RayTracer>(scene_); });
-  const ViewSize size = parse_view(options.view);
-  buffer_ = timed(setup_, "deep_frame_buffer", [&] {
-    return make_deep_frame_buffer(scene_, *tracer_, View{scene_.camera, size.width, size.height});
-  });
+  const View view = choose_view(scene_, options.view);
+  buffer_ = timed(setup_, "deep_frame_buffer", [&] { return make_deep_frame_buffer(scene_, *tracer_, view); });
 }
 
 }  // namespace relight

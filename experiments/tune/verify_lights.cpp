@@ -90,7 +90,7 @@ std::string lamp_file_text(const Scene& scene, const RayTracer& tracer, const De
 std::vector<std::string> choose_verify_lights(const Session& session, const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& [name, lighting] : session.scene().lightings)
-    if (name != session.lighting_name() && names.size() < most_presets) names.push_back(name);
+    if (name != session.lighting_preset() && names.size() < most_presets) names.push_back(name);
   for (uint64_t number = 0; names.size() < wanted_verify_lights; ++number) {
     const std::filesystem::path file = folder / fmt::format("lamp_{}.toml", number + 1);
     write_text_atomically(file, lamp_file_text(session.scene(), session.tracer(), session.buffer(),

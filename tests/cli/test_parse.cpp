@@ -10,15 +10,31 @@ namespace {
 
 // Red if width and height are swapped.
 TEST(Parse, ViewIsWidthTimesHeight) {
-  const ViewSize size = parse_view("640x480");
+  const ViewChoice size = parse_view("640x480");
   EXPECT_EQ(size.width, 640);
   EXPECT_EQ(size.height, 480);
+  EXPECT_EQ(size.camera, "");
+  EXPECT_EQ(to_string(parse_view("gallery:64x048")), "gallery:64x48");
+}
+
+// Red if the last moment of a sequence is lost to rounding, or a name that holds an '@' is cut.
+TEST(Parse, LightsAreANameWithOneMomentOrASequence) {
+  EXPECT_EQ(parse_lights("spot").name, "spot");
+  EXPECT_TRUE(parse_lights("spot").times.empty());
+  EXPECT_EQ(parse_lights("sweep@0.5").times, (std::vector<double>{0.5}));
+  EXPECT_EQ(parse_lights("sweep@0:0.3:0.1").times.size(), 4u);
+  EXPECT_EQ(parse_lights("sweep@0:0.3:0.1").name, "sweep");
+  EXPECT_EQ(lights_at("sweep", 0.1 + 0.2), "sweep@0.3");
+  for (const char* text : {"me@home", "a@", "a@1:", "a@1:2", "@1", "a@nan"})
+    EXPECT_EQ(parse_lights(text).name, text);
+  for (const char* text : {"a@1:0:1", "a@0:1:0", "a@0:1:-1", "a@0:1:1e-9"})
+    EXPECT_THROW(parse_lights(text), UsageError) << text;
 }
 
 // Red if trailing text, signs, zero or huge sides pass (std::stoi would accept "12abc").
 TEST(Parse, ViewRefusesEverythingElse) {
   for (const char* text : {"", "x", "640", "640x", "x480", "640x480x3", "640X480", "-4x4", "0x4", "4x0",
-                           "12abcx4", "4 x4", "99999x4", "99999999999999x4"}) {
+                           "12abcx4", "4 x4", "99999x4", "99999999999999x4", ":4x4", "a:4", "a:b:4x4"}) {
     EXPECT_THROW(parse_view(text), UsageError) << text;
   }
 }

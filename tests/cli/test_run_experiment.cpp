@@ -1,8 +1,12 @@
 // `relight run`: the product of lists, refusals before anything starts, resuming, and going on after a
 // failure.
+#include <set>
+
 #include <gtest/gtest.h>
 
+#include "common/image/exr.h"
 #include "common/run/error.h"
+#include "experiments/compare/image_files.h"
 #include "experiments/run/explain_runs.h"
 #include "experiments/run/record_of.h"
 #include "experiments/run/run_experiment.h"
@@ -88,7 +92,7 @@ TEST(RunExperiment, RefusesUnknownNamesBeforeAnythingStarts) {
   EXPECT_NE(trial.message(head + group(method, "colour = 1")).find("colour"), std::string::npos);
   EXPECT_NE(trial.message(head).find("[[runs]]"), std::string::npos);
   const std::string unlit = "[[runs]]\nscenes = ['cornell']\nlights = ['moon']\nmethod = '" + method + "'\n";
-  EXPECT_NE(trial.message(head + unlit).find("valid: near, omni, spot"), std::string::npos);
+  EXPECT_NE(trial.message(head + unlit).find("valid presets: near, omni, spot"), std::string::npos);
   const std::string nowhere =
       "[[runs]]\nscenes = ['atlantis']\nlights = ['omni']\nmethod = '" + method + "'\n";
   EXPECT_NE(trial.message(head + nowhere).find("atlantis"), std::string::npos);
@@ -149,8 +153,65 @@ TEST(RunExperiment, KnowsARecordByEverythingThatDecidesIt) {
   EXPECT_TRUE(differs([](RunRecord& r) { r.seed = 2; }));
   EXPECT_TRUE(differs([](RunRecord& r) { r.scene_hash = "0"; }));
   EXPECT_TRUE(differs([](RunRecord& r) { r.lighting = "spot2"; }));
+  EXPECT_TRUE(differs([](RunRecord& r) { r.lighting_hash = "0"; })) << "the file's lights were changed";
+  EXPECT_TRUE(differs([](RunRecord& r) { r.view_hash = "0"; })) << "the file's camera was changed";
   EXPECT_TRUE(differs([](RunRecord& r) { r.view = "13x9"; }));
   EXPECT_TRUE(differs([](RunRecord& r) { r.method = "another"; }));
+}
+
+const std::string moving_scene =
+    "base = 'cornell'\n[view.low]\neye = [0.4, 0.5, 3.5]\n[[lighting.sweep]]\ntype = 'omni'\n"
+    "position = [0, 1.5, 0]\nintensity = 1\n[[lighting.sweep.keyframe]]\ntime = 0\nintensity = 1\n"
+    "[[lighting.sweep.keyframe]]\ntime = 1\nintensity = 3\n";
+
+// Red if views or moments share a folder, a record or a reference, or a view is not the scene's camera of
+// that name.
+TEST(RunExperiment, RunsOnSeveralViewsAndAlongLightSequences) {
+  Trial trial;
+  write_text(trial.folder / "moving.toml", moving_scene);
+  const std::string runs =
+      "title = 'trial'\nviews = ['12x9', 'low:12x9']\nreference_samples = 8\nrepeats = 1\n[[runs]]\n"
+      "scenes = ['./moving.toml']\nlights = ['sweep@0:1:0.5']\nmethod = '" +
+      trial.methods[0]->name() + "'\n";
+  const RunList list = trial.list(runs);
+  ASSERT_EQ(list.runs.size(), 6u);
+  const ExperimentResult result = trial.run(list);
+  EXPECT_TRUE(result.failures.empty());
+  std::set<std::string> folders, hashes;
+  std::set<float> brightness;
+  for (size_t i = 0; i < list.runs.size(); ++i) {
+    folders.insert(folder_name(list.runs[i]));
+    const RunRecord& record = result.records[i];
+    hashes.insert(record.view_hash + record.lighting_hash);
+    const std::filesystem::path images = std::filesystem::path(trial.folder / "out") / folder_name(list.runs[i]);
+    float sum = 0.0f;
+    for (const glm::vec3& p : read_exr(image_file(images, record.method, "reference")).pixels) sum += p.x;
+    brightness.insert(sum);
+    EXPECT_TRUE(is_record_of(record, list.runs[i]));
+    EXPECT_EQ(record.view_hash, list.runs[i].view_hash);
+    // The exact method is the reference with other random numbers: another place would be wrong by far more.
+    EXPECT_LT(record.errors->value.relative, 0.5);
+  }
+  EXPECT_EQ(folders.size(), 6u);
+  EXPECT_EQ(hashes.size(), 6u);
+  EXPECT_EQ(brightness.size(), 6u);
+  EXPECT_EQ(result.records.front().lighting, "sweep@0");
+  // A file that is changed has no records any more.
+  write_text(trial.folder / "moving.toml", moving_scene + "[camera]\neye = [0, 1, 3.8]\n");
+  EXPECT_FALSE(is_record_of(result.records.front(), trial.list(runs).runs.front()));
+}
+
+TEST(RunExperiment, RefusesViewsAndMomentsThatDoNotExist) {
+  Trial trial;
+  write_text(trial.folder / "moving.toml", moving_scene);
+  const auto says = [&](const std::string& top, const std::string& lights) {
+    return trial.message("title = 't'\n" + top + "[[runs]]\nscenes = ['./moving.toml', 'cornell']\nlights = ['" +
+                         lights + "']\nmethod = '" + trial.methods[0]->name() + "'\n");
+  };
+  EXPECT_NE(says("views = ['high:12x9']\n", "sweep@0").find("valid: low"), std::string::npos);
+  EXPECT_NE(says("view = '12x9'\nviews = ['12x9']\n", "sweep@0").find("one of them"), std::string::npos);
+  EXPECT_NE(says("", "sweep@1:0:1").find("trial.toml:4"), std::string::npos) << says("", "sweep@1:0:1");
+  EXPECT_NE(says("", "spot@1").find("nothing in 'spot' moves"), std::string::npos);
 }
 
 TEST(RunExperiment, AFailedRunIsReportedTheOthersGoOnAndItIsTriedAgain) {

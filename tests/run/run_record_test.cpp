@@ -27,6 +27,7 @@ RunRecord example_record() {
   record.seed = 0xffffffffffffffffu;
   record.light_paths = "E D D L", record.width = 320, record.height = 240;
   record.triangles = 36, record.scene_hash = "abc123";
+  record.view_hash = "v1", record.lighting_hash = "l2";
   record.errors = ErrorReport{{1, 2, 3, 4, 5, -6, 0.7, 8},
                               {.1, .2, .3, .4, .5, .6, .7, .8},
                               {.01, .02, .03, .04, .05, .06, .07, .08},
@@ -66,6 +67,8 @@ TEST(RunRecord, SurvivesARoundTrip) {
   EXPECT_EQ(record_to_json(read), line);
   EXPECT_EQ(read.scene, "cornell");
   EXPECT_EQ(read.view, "front");
+  EXPECT_EQ(read.view_hash, "v1");
+  EXPECT_EQ(read.lighting_hash, "l2");
   EXPECT_EQ(read.lighting, "\"left\" spot");
   EXPECT_EQ(read.method, "m");
   EXPECT_EQ(read.knobs, record.knobs);

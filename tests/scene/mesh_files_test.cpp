@@ -105,6 +105,10 @@ TEST(SceneFiles, SetEveryFieldTheyName) {
   EXPECT_EQ(scene.exposure, 2.5f);
   EXPECT_EQ(scene.camera.eye, glm::vec3(0, 1, 3));
   EXPECT_EQ(scene.camera.fov_y_degrees, 50.0f);
+  ASSERT_EQ(scene.views.count("side"), 1u);
+  EXPECT_EQ(scene.views.at("side").eye, glm::vec3(3, 1, 0));
+  EXPECT_EQ(scene.views.at("side").target, scene.camera.target) << "left out: as the camera's";
+  EXPECT_EQ(scene.views.at("side").fov_y_degrees, 30.0f);
   const Triangle& last = scene.triangles.back();
   EXPECT_TRUE(scene.object_names[last.object].starts_with("block: "));
   const Material& material = scene.materials[last.material];

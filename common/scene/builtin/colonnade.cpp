@@ -155,6 +155,8 @@ void build(const BuiltinParameters& parameters, Scene& scene) {
     if (i % 2 == 1) add_cloth(mesh, cloths[(i / 2 + 1) % 3], {x, 10.4, court_z}, 2.9, 3.0, count(20, 2));
   }
   scene.camera = Camera{{-10.4f, 1.8f, 0.9f}, {4.0f, 4.6f, -0.6f}, {0, 1, 0}, 60.0f};
+  // From the upper gallery across the court.
+  scene.views["gallery"] = Camera{{-8.0f, 9.0f, 3.5f}, {5.0f, 3.0f, -2.0f}, {0, 1, 0}, 60.0f};
   scene.exposure = 1.0f;
   const glm::vec3 warm(1.0f, 0.95f, 0.85f);
   add_lighting(scene, "spot",

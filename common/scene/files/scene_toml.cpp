@@ -61,6 +61,17 @@ void read_camera(const TomlTable& table, Camera& camera) {
     fail("{}: up is parallel to the direction of view, or zero", table.where());
 }
 
+// [view.NAME] tables: fields that one leaves out are the camera's.
+void read_views(const TomlTable& table, Scene& scene) {
+  for (const std::string& name : table.keys()) {
+    if (name.empty() || name.find_first_not_of(view_name_characters) != std::string::npos)
+      fail("{}: the name of a view is of letters, digits, '_' and '-'", table.where(name));
+    Camera camera = scene.camera;
+    read_camera(table.table(name), camera);
+    scene.views[name] = camera;
+  }
+}
+
 void read_environment(const TomlTable& table, Environment& environment) {
   const std::filesystem::path file = table.file("file");
   environment.radiance = table.colour("radiance", glm::vec3(file.empty() ? 0.0f : 1.0f), {0.0});
@@ -95,7 +106,7 @@ Scene read_geometry(const TomlTable& table, const std::filesystem::path& file) {
 Scene load_scene_toml(const std::filesystem::path& file) {
   const TomlTable table = TomlTable::parse_file(file);
   // Keys are checked before the meshes, so that a typo does not cost the time of loading them.
-  for (const char* key : {"base", "mesh", "material", "camera", "exposure", "lighting", "environment"})
+  for (const char* key : {"base", "mesh", "material", "camera", "view", "exposure", "lighting", "environment"})
     table.has(key);
   table.refuse_unknown_keys();
   Scene scene = read_geometry(table, file);
@@ -104,6 +115,7 @@ Scene load_scene_toml(const std::filesystem::path& file) {
   finish_scene(scene);
   if (!table.has("base")) scene.camera = frame_bounds(scene.bounds);
   read_camera(table.table("camera"), scene.camera);
+  read_views(table.table("view"), scene);
   scene.exposure = static_cast<float>(table.number("exposure", double(scene.exposure), {0.0, 1e30, true}));
   const TomlTable lightings = table.table("lighting");
   for (const std::string& preset : lightings.keys())
