@@ -17,7 +17,8 @@ PAPER = {"directions": 2000, "gather_clusters": 120, "view_clusters": 40000, "ne
 def sweep(rows, knob):
     """The runs in which only `knob` differs from the paper's setting, by its value."""
     others = [k for k in PAPER if k != knob]
-    same = lambda row: all(number(row, f"clustered_gather.{k}") in (PAPER[k],) for k in others)
+    same = lambda row: (row.get("clustered_gather.storage", "full") == "full" and
+                        all(number(row, f"clustered_gather.{k}") in (PAPER[k],) for k in others))
     return sorted(filter(same, rows), key=lambda row: number(row, f"clustered_gather.{knob}"))
 
 
@@ -44,10 +45,11 @@ def main():
         for axes in (errors, times):
             axes.axvline(PAPER[knob], color="#999999", linewidth=0.8, linestyle=":")
             axes.set_xscale("log")
-            axes.set_ylim(bottom=0)
             plain(axes)
             plain_numbers(axes.xaxis)
         times.set_xlabel(knob.replace("_", " "), fontsize=8)
+    for row in panels:  # shared along a row: set once all of it is drawn
+        row[0].set_ylim(bottom=0)
     panels[0][0].set_ylabel("relative error, %", fontsize=8)
     panels[1][0].set_ylabel("relight time, ms", fontsize=8)
     panels[0][0].legend(fontsize=7, frameon=False)

@@ -65,8 +65,8 @@ LightsChoice parse_lights(const std::string& text) {
   if (numbers.size() != 3) return {text, {}};
   const double first = numbers[0], last = numbers[1], step = numbers[2];
   if (!(step > 0.0) || !(first <= last) || !((last - first) / step < max_moments))
-    usage_fail("lights '{}': expected NAME@FIRST:LAST:STEP in seconds, FIRST <= LAST, at most {} moments", text,
-               max_moments);
+    usage_fail("lights '{}': expected NAME@FIRST:LAST:STEP in seconds, FIRST <= LAST, at most {} moments",
+               text, max_moments);
   LightsChoice choice{text.substr(0, at), {}};
   const double slack = 1e-9 * step;  // so that 0:0.3:0.1 ends with 0.3
   for (int i = 0; first + i * step <= last + slack; ++i) choice.times.push_back(first + i * step);

@@ -19,8 +19,9 @@ class Batch {
   explicit Batch(Keep keep) : keep_(std::move(keep)) {}
 
   // Can `run`, whose prepared data are expected to need `bytes`, be added to what is waiting? Not if it is on
-  // another scene, lighting or view, is the same run again, measures its effects (it then runs beside a second one
-  // of its own), or if there are eight, or a quarter of the machine's memory is needed for those that wait.
+  // another scene, lighting or view, is the same run again, measures its effects (it then runs beside a
+  // second one of its own), or if there are eight, or a quarter of the machine's memory is needed for those
+  // that wait.
   bool takes(const PlannedRun& run, int64_t bytes) const;
   // Prepares and warms up. `images`: folder. What concerns this run only becomes a failed record.
   void add(const PlannedRun& run, size_t place, const std::filesystem::path& images);

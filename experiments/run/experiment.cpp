@@ -40,7 +40,8 @@ std::vector<std::string> moments(const std::string& lights, const std::string& w
 std::vector<std::string> read_views(const TomlTable& table) {
   const std::string one = table.text("view", "");
   const std::vector<std::string> several = table.values("views");
-  if (!one.empty() && !several.empty()) fail("{}: view and views; one of them is enough", table.where("views"));
+  if (!one.empty() && !several.empty())
+    fail("{}: view and views; one of them is enough", table.where("views"));
   if (!several.empty()) return several;
   return {one.empty() ? "640x480" : one};
 }

@@ -27,8 +27,8 @@ struct RunGroup {
 };
 
 struct Experiment {
-  std::string name;   // file name without .toml
-  std::string title;  // one sentence
+  std::string name;                // file name without .toml
+  std::string title;               // one sentence
   std::vector<std::string> views;  // of groups that name none
   int reference_samples = 128;
   int repeats = 0;

@@ -39,7 +39,8 @@ uint64_t parse_seed(const std::string& text) {
 // What tells the run from all others on its scene and lights: every knob that the file sets; `view` if there
 // are several.
 std::string label(const RunGroup& group, const std::string& preset, const std::string& tolerance,
-                  const std::string& seed, const std::vector<KnobSetting>& settings, const std::string& view) {
+                  const std::string& seed, const std::vector<KnobSetting>& settings,
+                  const std::string& view) {
   std::string text = preset;
   if (!tolerance.empty()) text += fmt::format(" tolerance={}", tolerance);
   for (const KnobSetting& s : settings) text += fmt::format(" {}={}", s.knob, s.value);
@@ -64,7 +65,9 @@ class Places {
     load(scene);
     return problems_[scene];
   }
-  std::string hash(const std::string& scene) { return fmt::format("{:016x}", shells_.at(scene).content_hash); }
+  std::string hash(const std::string& scene) {
+    return fmt::format("{:016x}", shells_.at(scene).content_hash);
+  }
   // Its name as records have it, and its hash. UsageError if the scene has no such lighting.
   std::pair<std::string, std::string> lighting(const std::string& scene, const std::string& lights) {
     load(scene);
@@ -94,8 +97,8 @@ class Places {
   std::map<std::string, Scene> shells_;
 };
 
-// Runs on one scene, view and lighting follow each other, among them those that share prepared data: these are then
-// loaded from the cache while it is warm, and timed by turns.
+// Runs on one scene, view and lighting follow each other, among them those that share prepared data: these
+// are then loaded from the cache while it is warm, and timed by turns.
 void order(std::vector<PlannedRun>& runs) {
   std::map<std::string, size_t> first_use;
   const auto data = [&](const PlannedRun& r) {

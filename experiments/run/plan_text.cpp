@@ -33,8 +33,8 @@ size_t number_of_precomputes(const std::vector<PlannedRun>& runs) {
   for (const PlannedRun& run : runs) {
     const SessionOptions& s = run.plan.session;
     const MethodPlan& method = run.plan.methods.front();
-    keys.insert(
-        fmt::format("{}\n{}\n{}\n{}\n{}", s.scene, s.view, s.seed, method.method->name(), method.knobs.precompute_key()));
+    keys.insert(fmt::format("{}\n{}\n{}\n{}\n{}", s.scene, s.view, s.seed, method.method->name(),
+                            method.knobs.precompute_key()));
   }
   return keys.size();
 }

@@ -136,7 +136,8 @@ Session::Session(const SessionOptions& options, Gpu gpu)
   if (gpu == Gpu::needed) gpu_ = gpu::Context::create(options.gpu);
   tracer_ = timed(setup_, "build_bvh", [&] { return std::make_unique<RayTracer>(scene_); });
   const View view = choose_view(scene_, options.view);
-  buffer_ = timed(setup_, "deep_frame_buffer", [&] { return make_deep_frame_buffer(scene_, *tracer_, view); });
+  buffer_ =
+      timed(setup_, "deep_frame_buffer", [&] { return make_deep_frame_buffer(scene_, *tracer_, view); });
 }
 
 }  // namespace relight

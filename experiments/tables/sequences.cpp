@@ -15,15 +15,17 @@ namespace {
 constexpr ErrorKind shown_errors[] = {ErrorKind::relative, ErrorKind::indirect};
 
 std::vector<TableCell> row(const Sequence& s) {
-  std::vector<TableCell> cells{text_cell(s.scene),  text_cell(s.lighting), text_cell(s.view),
-                               text_cell(s.method), text_cell(s.label),    text_cell(std::to_string(s.times.size()))};
+  std::vector<TableCell> cells{text_cell(s.scene), text_cell(s.lighting),
+                               text_cell(s.view),  text_cell(s.method),
+                               text_cell(s.label), text_cell(std::to_string(s.times.size()))};
   cells.back().value = static_cast<double>(s.times.size());
   for (const ErrorKind error : shown_errors) {
     const double mean = s.mean(error);
     const size_t worst = s.worst(error);
     const double largest = (*s.points[worst])[error].value;
     cells.push_back({error_text(mean), 100 * mean, "", ""});
-    cells.push_back({fmt::format("{} at {:g} s", error_text(largest), s.times[worst]), 100 * largest, "", ""});
+    cells.push_back(
+        {fmt::format("{} at {:g} s", error_text(largest), s.times[worst]), 100 * largest, "", ""});
   }
   double sum = 0.0, slowest = 0.0;
   for (const Point* p : s.points) {
@@ -74,7 +76,8 @@ std::vector<Sequence> sequences(const std::vector<Group>& groups) {
       if (!p.failure.empty()) continue;
       const auto [at, is_new] = places.try_emplace(
           std::tuple(group.scene, lights.name, group.view, group.paths, p.method, p.label), all.size());
-      if (is_new) all.push_back({group.scene, lights.name, group.view, group.paths, p.method, p.label, {}, {}});
+      if (is_new)
+        all.push_back({group.scene, lights.name, group.view, group.paths, p.method, p.label, {}, {}});
       all[at->second].times.push_back(lights.times.front());
       all[at->second].points.push_back(&p);
     }
@@ -86,12 +89,14 @@ std::vector<Sequence> sequences(const std::vector<Group>& groups) {
 
 Table sequence_table(const Results& results) {
   Table table{"sequences", "Light sequences", {}, {}, ""};
-  for (const char* name : {"scene", "lights", "view", "method", "run"}) table.columns.push_back({name, false});
+  for (const char* name : {"scene", "lights", "view", "method", "run"})
+    table.columns.push_back({name, false});
   for (const char* name : {"moments", "relative, mean %", "largest %", "indirect, mean %", "largest %",
                            "relight, mean (ms)", "slowest (ms)"})
     table.columns.push_back({name, true});
   for (const Sequence& s : sequences(results.groups)) table.rows.push_back(row(s));
-  table.note = "Runs that differ in the moment of a moving lighting alone; each moment has its own reference.";
+  table.note =
+      "Runs that differ in the moment of a moving lighting alone; each moment has its own reference.";
   return table;
 }
 

@@ -19,8 +19,8 @@ const RunRecord* SettingRecords::find(const MethodPlan& method, const Session& s
         record.scene == plan_.session.scene && record.scene_hash == hash &&
         record.lighting == session.lighting_name() && record.view == plan_.session.view &&
         record.view_hash == view_hash(session.buffer().view) &&
-        record.lighting_hash == lighting_hash(session.lighting()) &&
-        record.seed == plan_.session.seed && record.failed_stages.empty() && record.reference &&
+        record.lighting_hash == lighting_hash(session.lighting()) && record.seed == plan_.session.seed &&
+        record.failed_stages.empty() && record.reference &&
         record.reference->samples >= plan_.reference_samples)
       return &record;
   }

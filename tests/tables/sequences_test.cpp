@@ -22,14 +22,14 @@ Results results_of(std::vector<RunRecord> records) {
   return results;
 }
 
-// Red if moments are sorted as text (10 before 2), lightings or methods mix, a lighting that stands still or a
-// failed run counts, or the mean is taken of something else than the moments.
+// Red if moments are sorted as text (10 before 2), lightings or methods mix, a lighting that stands still or
+// a failed run counts, or the mean is taken of something else than the moments.
 TEST(Sequences, TakeTheMomentsOfOneLightingTogether) {
   RunRecord failed = planted_failure("a", "out of memory");
   failed.lighting = "sweep@3";
-  const Results results = results_of({moment("sweep@10", 0.03, 40), moment("sweep@2", 0.06, 10),
-                                      moment("sweep@0", 0.03, 10), failed, moment("spot", 0.5, 1),
-                                      moment("other@0", 0.5, 1), moment("sweep@0", 0.5, 1, "b")});
+  const Results results =
+      results_of({moment("sweep@10", 0.03, 40), moment("sweep@2", 0.06, 10), moment("sweep@0", 0.03, 10),
+                  failed, moment("spot", 0.5, 1), moment("other@0", 0.5, 1), moment("sweep@0", 0.5, 1, "b")});
   const std::vector<Sequence> all = sequences(results.groups);
   ASSERT_EQ(all.size(), 1u);
   const Sequence& s = all.front();

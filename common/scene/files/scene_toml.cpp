@@ -106,7 +106,8 @@ Scene read_geometry(const TomlTable& table, const std::filesystem::path& file) {
 Scene load_scene_toml(const std::filesystem::path& file) {
   const TomlTable table = TomlTable::parse_file(file);
   // Keys are checked before the meshes, so that a typo does not cost the time of loading them.
-  for (const char* key : {"base", "mesh", "material", "camera", "view", "exposure", "lighting", "environment"})
+  for (const char* key :
+       {"base", "mesh", "material", "camera", "view", "exposure", "lighting", "environment"})
     table.has(key);
   table.refuse_unknown_keys();
   Scene scene = read_geometry(table, file);
