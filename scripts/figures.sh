@@ -59,10 +59,11 @@ figure hasan2006_figure3 figure3 hasan2006_figure3.py
 figure clustered_gather_sweeps clustered_gather_sweeps clustered_gather_sweeps.py
 figure clustered_gather_figure2 clustered_gather_figure2 clustered_gather_figure2.py
 
-waterfalls=(results/explain_error/*.csv)
+waterfalls=(out/explain_error/*/waterfall.csv)
+[[ -f ${waterfalls[0]} ]] || waterfalls=(results/explain_error/waterfalls/*.csv)
 if [[ -f ${waterfalls[0]} ]]; then
   /usr/bin/python3 paper_figs/waterfall.py "${waterfalls[@]}" --out "$out/explain_error.svg"
-  echo "made    $out/explain_error.svg from results/explain_error"
+  echo "made    $out/explain_error.svg from ${waterfalls[0]%%/explain_error/*}/explain_error"
   made=$((made + 1))
 fi
 for folder in out results; do

@@ -10,7 +10,7 @@
 
 namespace relight {
 EnvironmentPicture::EnvironmentPicture(const DeepFrameBuffer& buffer, Upsampling upsampling)
-    : buffer_(buffer), sources_(indirect_sources(buffer, upsampling)) {}
+    : buffer_(buffer), sources_(indirect_sources(buffer, upsampling).of) {}
 
 Image EnvironmentPicture::resolve(const Environment& environment, std::span<const glm::vec4> reflected,
                                   StageLog& log) const {

@@ -20,9 +20,9 @@ class EnvironmentPicture {
   // `buffer` must outlive this.
   explicit EnvironmentPicture(const DeepFrameBuffer& buffer, Upsampling upsampling = Upsampling::closest);
 
-  // reflected: radiance of each pixel's view sample, or of each sub-sample with Upsampling::none; row-major,
-  // w ignored. Box-filtered over the 2x2 sub-pixels. Pixels that are not finite are counted
-  // (non_finite_reconstruction), warned of and replaced by zero (debug: an Error).
+  // reflected: radiance of each value of IndirectSources, w ignored. Box-filtered over the 2x2 sub-pixels.
+  // Pixels that are not finite are counted (non_finite_reconstruction), warned of and replaced by zero
+  // (debug: an Error).
   Image resolve(const Environment& environment, std::span<const glm::vec4> reflected, StageLog& log) const;
   int64_t bytes() const { return static_cast<int64_t>(sources_.size() * sizeof(uint32_t)); }
 

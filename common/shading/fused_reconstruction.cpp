@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t nowhere = std::numeric_limits<uint32_t>::max();
 constexpr uint16_t all_from_itself = 0x4444;
-constexpr unsigned from_nowhere = 15;
+constexpr unsigned from_own_value = 9, from_nowhere = 15;
 
 // Four-bit code of the pixel `source` as seen from pixel (x, y).
 unsigned source_code(uint32_t source, int x, int y, int width) {
@@ -53,24 +53,31 @@ FusedReconstruction::FusedReconstruction(const DeepFrameBuffer& buffer, Upsampli
       quads_per_row_((width_ + 1) / 2),
       quad_rows_((height_ + 1) / 2),
       upsampling_(upsampling),
-      sources_(width_ * height_) {
+      sources_(width_ * height_),
+      indirect_values_(0) {
+  const IndirectSources sources = indirect_sources(buffer, upsampling);
+  indirect_values_ = static_cast<size_t>(sources.width) * static_cast<size_t>(sources.height);
   if (upsampling == Upsampling::none) return;
-  const std::vector<uint32_t> closest = closest_view_samples(buffer);
   const int w = buffer.view.width, h = buffer.view.height;
+  const size_t pixels = width_ * height_;
   for (int y = 0; y < h; ++y) {
+    first_own_.push_back(own_.size());
     for (int x = 0; x < w; ++x) {
       unsigned code = 0;
       for (int sub = 0; sub < 4; ++sub) {
         const int column = 2 * x + sub % 2, row = 2 * y + sub / 2;
-        code |= source_code(closest[static_cast<size_t>(row * 2 * w + column)], x, y, w) << (4 * sub);
+        const uint32_t source = sources.of[static_cast<size_t>(row * 2 * w + column)];
+        const bool own = source != nowhere && source >= pixels;
+        if (own) own_.push_back(source);
+        code |= (own ? from_own_value : source_code(source, x, y, w)) << (4 * sub);
       }
       sources_[static_cast<size_t>(y * w + x)] = static_cast<uint16_t>(code);
     }
   }
 }
 
-glm::vec3 FusedReconstruction::filtered_indirect(std::span<const glm::vec4> indirect, size_t x,
-                                                 size_t y) const {
+glm::vec3 FusedReconstruction::filtered_indirect(std::span<const glm::vec4> indirect, size_t x, size_t y,
+                                                 size_t& next_own) const {
   if (upsampling_ == Upsampling::none) {
     const glm::vec4* top = indirect.data() + 4 * y * width_ + 2 * x;
     const glm::vec4* bottom = top + 2 * width_;
@@ -81,21 +88,24 @@ glm::vec3 FusedReconstruction::filtered_indirect(std::span<const glm::vec4> indi
   const auto of = [&](unsigned sub) {
     const unsigned source = (code >> (4 * sub)) & 15u;
     if (source == from_nowhere) return glm::vec3(0.0f);
+    if (source == from_own_value) return glm::vec3(indirect[own_[next_own++]]);
     return glm::vec3(indirect[(y + source / 3 - 1) * width_ + x + source % 3 - 1]);
   };
   if (code == all_from_itself) return glm::vec3(indirect[pixel]);
-  return ((of(0) + of(1)) + (of(2) + of(3))) * 0.25f;
+  const glm::vec3 a = of(0), b = of(1), c = of(2), d = of(3);  // in this order: own values are counted
+  return ((a + b) + (c + d)) * 0.25f;
 }
 
 FusedReconstruction::NonFinite FusedReconstruction::resolve_row(std::span<const glm::vec4> direct,
                                                                 std::span<const glm::vec4> indirect, size_t y,
                                                                 Images& images) const {
   NonFinite bad;
+  size_t next_own = first_own_.empty() ? 0 : first_own_[y];
   const glm::vec4* row = direct.data() + y / 2 * quads_per_row_ * 4 + y % 2 * 2;
   for (size_t x = 0; x < width_; ++x) {
     const size_t pixel = y * width_ + x;
     glm::vec3 d(row[x / 2 * 4 + x % 2]);
-    glm::vec3 n = filtered_indirect(indirect, x, y);
+    glm::vec3 n = filtered_indirect(indirect, x, y, next_own);
     bad.check(0, d, pixel);
     bad.check(1, n, pixel);
     images.direct.pixels[pixel] = d;
@@ -108,8 +118,7 @@ FusedReconstruction::NonFinite FusedReconstruction::resolve_row(std::span<const 
 FusedReconstruction::Images FusedReconstruction::resolve(std::span<const glm::vec4> direct,
                                                          std::span<const glm::vec4> indirect,
                                                          StageLog& log) const {
-  if (direct.size() < direct_values() ||
-      indirect.size() < width_ * height_ * (upsampling_ == Upsampling::none ? 4 : 1))
+  if (direct.size() < direct_values() || indirect.size() < indirect_values_)
     throw std::logic_error("FusedReconstruction::resolve: needs every value of direct and indirect light");
   const StageTimer timer(log, "reconstruction");
   const Image black(static_cast<int>(width_), static_cast<int>(height_));

@@ -19,8 +19,8 @@ constexpr int direct_image_binding = 3, indirect_image_binding = 4;
 constexpr int direct_unit = 0, closest_unit = 1, indirect_unit = 2;
 
 // The sources of a pixel's four sub-samples side by side: one texel a pixel.
-std::vector<glm::uvec4> closest_by_pixel(const DeepFrameBuffer& buffer, Upsampling upsampling) {
-  const std::vector<uint32_t> closest = indirect_sources(buffer, upsampling);
+std::vector<glm::uvec4> closest_by_pixel(const DeepFrameBuffer& buffer,
+                                         const std::vector<uint32_t>& closest) {
   const auto w = static_cast<size_t>(buffer.view.width), h = static_cast<size_t>(buffer.view.height);
   std::vector<glm::uvec4> pixels(w * h);
   for (size_t y = 0; y < h; ++y) {
@@ -53,10 +53,13 @@ Image download_image(const gpu::Buffer& buffer, int width, int height, const cha
 }  // namespace
 
 Reconstruction::Reconstruction(const DeepFrameBuffer& buffer, Upsampling upsampling)
+    : Reconstruction(buffer, indirect_sources(buffer, upsampling)) {}
+
+Reconstruction::Reconstruction(const DeepFrameBuffer& buffer, const IndirectSources& sources)
     : width_(buffer.view.width),
       height_(buffer.view.height),
-      indirect_values_((upsampling == Upsampling::none ? int64_t{4} : int64_t{1}) * width_ * height_),
-      closest_(gpu::Buffer::from(closest_by_pixel(buffer, upsampling))),
+      indirect_values_(int64_t{sources.width} * sources.height),
+      closest_(gpu::Buffer::from(closest_by_pixel(buffer, sources.of))),
       program_(gpu::Program::compute("common/shading/reconstruction.glsl")),
       direct_image_(int64_t{16} * width_ * height_),
       indirect_image_(int64_t{16} * width_ * height_) {

@@ -13,9 +13,9 @@
 
 namespace relight {
 
-// Where sub-samples have their indirect light from: `closest`, the paper's, one value a pixel; `none`, the
-// exact twin, one value each.
-enum class Upsampling { closest, none };
+// Where sub-samples have their indirect light from: `closest`, the paper's, one value a pixel; `edges`, also
+// a value of their own for those that match no pixel around them; `none`, the exact twin, one value each.
+enum class Upsampling { closest, edges, none };
 
 // For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff
 // where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" has the form of equation 9:
@@ -23,8 +23,25 @@ enum class Upsampling { closest, none };
 // the own pixel wins ties. Depends on the view only. Parallel, deterministic.
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer);
 
-// The same with Upsampling::none: each valid sub-sample's own index among the 2w x 2h.
-std::vector<uint32_t> indirect_sources(const DeepFrameBuffer& buffer, Upsampling upsampling);
+// The values of indirect light and who takes which. They are a picture, so that neighbours lie in one 4x4
+// tile: the pixels of the view, with `edges` more rows below, with `none` the sub-samples.
+struct IndirectSources {
+  int width = 0, height = 0;
+  std::vector<uint32_t> of;  // by sub-sample: place of its value in the picture, 0xffffffff if it hit nothing
+  // With `edges`: sub-samples with a value of their own, and its place. Four rows after the other, sixteen in
+  // each 4x4 tile, in the order of the view's tiles; the first row is a multiple of four.
+  struct Own {
+    uint32_t subsample, place;
+  };
+  std::vector<Own> own;
+  // The view samples of the picture; what is left over is not valid.
+  std::vector<SurfaceSample> samples(const DeepFrameBuffer& buffer) const;
+};
+
+// A sub-sample matches no pixel if none around it is valid, or if the closest one's shading normal differs by
+// more than 8 degrees or it lies off that one's plane by more than a pixel's width. Depends on the view only.
+// Parallel, deterministic.
+IndirectSources indirect_sources(const DeepFrameBuffer& buffer, Upsampling upsampling);
 
 // CPU twin. indirect: one radiance a pixel. Returns the box-filtered indirect image.
 Image reconstruct_indirect_cpu(const DeepFrameBuffer& buffer, const std::vector<uint32_t>& closest,
@@ -38,7 +55,7 @@ class Reconstruction {
  public:
   explicit Reconstruction(const DeepFrameBuffer& buffer, Upsampling upsampling = Upsampling::closest);
   int64_t bytes() const { return closest_.bytes() + direct_image_.bytes() + indirect_image_.bytes(); }
-  // direct: vec4 a sub-sample; indirect: vec4 a pixel, or a sub-sample with Upsampling::none. Downloads both
+  // direct: vec4 a sub-sample; indirect: vec4 a value of IndirectSources. Downloads both
   // filtered images. Pixels that are not finite are counted (non_finite_reconstruction), warned of and
   // replaced by zero (debug: an Error).
   struct Images {
@@ -47,6 +64,7 @@ class Reconstruction {
   Images resolve(const gpu::Buffer& direct, const gpu::Buffer& indirect, class StageLog& log) const;
 
  private:
+  Reconstruction(const DeepFrameBuffer& buffer, const IndirectSources& sources);
   int width_, height_;
   int64_t indirect_values_;
   gpu::Buffer closest_;

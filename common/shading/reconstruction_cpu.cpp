@@ -72,14 +72,6 @@ std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer) {
   return closest;
 }
 
-std::vector<uint32_t> indirect_sources(const DeepFrameBuffer& buffer, Upsampling upsampling) {
-  if (upsampling == Upsampling::closest) return closest_view_samples(buffer);
-  std::vector<uint32_t> own(buffer.direct.size(), no_sample);
-  for (uint32_t i = 0; i < own.size(); ++i)
-    if (buffer.direct[i].valid) own[i] = i;
-  return own;
-}
-
 Image reconstruct_indirect_cpu(const DeepFrameBuffer& buffer, const std::vector<uint32_t>& closest,
                                const std::vector<glm::vec3>& indirect) {
   std::vector<glm::vec3> subsamples(closest.size(), glm::vec3(0.0f));

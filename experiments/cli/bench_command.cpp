@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/bench/bench.h"
 #include "experiments/bench/gather_bench.h"
@@ -13,8 +12,8 @@
 
 namespace relight::cli {
 
-void add_bench_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_bench_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "bench", "Speed of the path tracer in million rays a second, beside Embree alone on the same rays");
   const auto options = std::make_shared<BenchOptions>();
   options->session.view = "320x240";

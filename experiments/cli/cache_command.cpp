@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -38,12 +37,12 @@ int clear_cache(const SessionOptions& options) {
 
 }  // namespace
 
-void add_cache_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("cache", "Precomputed data kept on disk");
+void add_cache_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand("cache", "Precomputed data kept on disk");
   command->require_subcommand(1);
   const auto options = std::make_shared<SessionOptions>();
-  CLI::App* list = command->add_subcommand("list", "Kind, size and key of every file in the cache");
-  CLI::App* clear = command->add_subcommand("clear", "Remove every file of the cache (and nothing else)");
+  Command* list = command->add_subcommand("list", "Kind, size and key of every file in the cache");
+  Command* clear = command->add_subcommand("clear", "Remove every file of the cache (and nothing else)");
   add_cache_folder_flag(*list, *options);
   add_cache_folder_flag(*clear, *options);
   list->callback([&action, options] { action = [options] { return list_cache(*options); }; });

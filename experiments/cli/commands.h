@@ -4,30 +4,28 @@
 
 #include <functional>
 
-namespace CLI {
-class App;
-}
+#include "experiments/cli/command.h"
 
 namespace relight::cli {
 
 // Returns the exit code; throws UsageError (2) or Error (1).
 using Action = std::function<int()>;
 
-void add_scene_command(CLI::App& app, Action& action);
-void add_methods_command(CLI::App& app, Action& action);
-void add_render_command(CLI::App& app, Action& action);
-void add_plan_command(CLI::App& app, Action& action);
-void add_reference_command(CLI::App& app, Action& action);
-void add_references_command(CLI::App& app, Action& action);
-void add_compare_command(CLI::App& app, Action& action);
-void add_explain_error_command(CLI::App& app, Action& action);
-void add_hard_cases_command(CLI::App& app, Action& action);
-void add_run_command(CLI::App& app, Action& action);
-void add_regress_command(CLI::App& app, Action& action);
-void add_publish_command(CLI::App& app, Action& action);
-void add_tune_command(CLI::App& app, Action& action);
-void add_report_command(CLI::App& app, Action& action);
-void add_cache_command(CLI::App& app, Action& action);
-void add_bench_command(CLI::App& app, Action& action);
+void add_scene_command(Command& app, Action& action);
+void add_methods_command(Command& app, Action& action);
+void add_render_command(Command& app, Action& action);
+void add_plan_command(Command& app, Action& action);
+void add_reference_command(Command& app, Action& action);
+void add_references_command(Command& app, Action& action);
+void add_compare_command(Command& app, Action& action);
+void add_explain_error_command(Command& app, Action& action);
+void add_hard_cases_command(Command& app, Action& action);
+void add_run_command(Command& app, Action& action);
+void add_regress_command(Command& app, Action& action);
+void add_publish_command(Command& app, Action& action);
+void add_tune_command(Command& app, Action& action);
+void add_report_command(Command& app, Action& action);
+void add_cache_command(Command& app, Action& action);
+void add_bench_command(Command& app, Action& action);
 
 }  // namespace relight::cli

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -28,8 +27,8 @@ int run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_compare_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "compare",
       "Runs methods on one scene, view and lighting and measures each against the path-traced reference "
       "restricted to its own light paths. Writes images (EXR), records.jsonl and index.html, replacing those "

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -47,8 +46,8 @@ int run_explain_error(const ExplainOptions& options) {
 
 }  // namespace
 
-void add_explain_error_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_explain_error_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "explain-error",
       "Tells which of a method's approximations costs how much of its error, and what each saves");
   command->footer(lesson);

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "common/run/atomic_file.h"
 #include "experiments/cli/commands.h"
@@ -40,11 +39,11 @@ int run(const HardCaseOptions& options) {
 
 }  // namespace
 
-void add_hard_cases_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("hard-cases",
-                                         "Runs the named hard cases of every method and of the reference: "
-                                         "what could break, what was measured, and "
-                                         "whether its bound holds");
+void add_hard_cases_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand("hard-cases",
+                                        "Runs the named hard cases of every method and of the reference: "
+                                        "what could break, what was measured, and "
+                                        "whether its bound holds");
   command->footer(
       "Exit code 1 if a bound is broken. The tests run the same list. Example: relight hard-cases --only "
       "spot. See "

@@ -48,23 +48,24 @@ int run(int argc, char** argv) {
       "accuracy cost, and which light paths does it leave out?",
       "relight");
   app.require_subcommand(1);
+  relight::cli::Command root(app);
   Action action;
-  relight::cli::add_scene_command(app, action);
-  relight::cli::add_methods_command(app, action);
-  relight::cli::add_render_command(app, action);
-  relight::cli::add_plan_command(app, action);
-  relight::cli::add_reference_command(app, action);
-  relight::cli::add_references_command(app, action);
-  relight::cli::add_compare_command(app, action);
-  relight::cli::add_explain_error_command(app, action);
-  relight::cli::add_hard_cases_command(app, action);
-  relight::cli::add_run_command(app, action);
-  relight::cli::add_regress_command(app, action);
-  relight::cli::add_publish_command(app, action);
-  relight::cli::add_tune_command(app, action);
-  relight::cli::add_report_command(app, action);
-  relight::cli::add_cache_command(app, action);
-  relight::cli::add_bench_command(app, action);
+  relight::cli::add_scene_command(root, action);
+  relight::cli::add_methods_command(root, action);
+  relight::cli::add_render_command(root, action);
+  relight::cli::add_plan_command(root, action);
+  relight::cli::add_reference_command(root, action);
+  relight::cli::add_references_command(root, action);
+  relight::cli::add_compare_command(root, action);
+  relight::cli::add_explain_error_command(root, action);
+  relight::cli::add_hard_cases_command(root, action);
+  relight::cli::add_run_command(root, action);
+  relight::cli::add_regress_command(root, action);
+  relight::cli::add_publish_command(root, action);
+  relight::cli::add_tune_command(root, action);
+  relight::cli::add_report_command(root, action);
+  relight::cli::add_cache_command(root, action);
+  relight::cli::add_bench_command(root, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/method_list.h"
@@ -34,8 +33,8 @@ int describe_method(const std::string& name) {
 
 }  // namespace
 
-void add_methods_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("methods", "The relighting methods, or the knobs of one");
+void add_methods_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand("methods", "The relighting methods, or the knobs of one");
   const auto name = std::make_shared<std::string>();
   command->add_option("method", *name, "Print the knob table of this method")->type_name("NAME");
   command->callback([&action, name] {

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "common/run/atomic_file.h"
 #include "experiments/cli/commands.h"
@@ -41,8 +40,8 @@ int run_plan(const PlanOptions& options) {
 
 }  // namespace
 
-void add_plan_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_plan_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "plan",
       "Which effects a method should compute on a scene, lighting and view so that what it leaves out stays "
       "below a tolerance: rules first, then a small path trace. `compare`, `render` and `run` do the same "

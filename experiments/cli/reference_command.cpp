@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -11,8 +10,8 @@
 
 namespace relight::cli {
 
-void add_reference_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_reference_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "reference",
       "The path tracer alone: direct, indirect and total light, the variance of the indirect light (EXR), "
       "light by path class (--layers), its noise floor (reference.json) and convergence (convergence.csv). "

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/stored_references/commands.h"
@@ -12,12 +11,12 @@ namespace relight::cli {
 
 namespace {
 
-void add_names(CLI::App& command, ReferencesOptions& options) {
+void add_names(Command& command, ReferencesOptions& options) {
   command.add_option("names", options.names, "Names of stored references (see `list`); none: all of them")
       ->type_name("NAME...");
 }
 
-void add_shared_flags(CLI::App& command, ReferencesOptions& options) {
+void add_shared_flags(Command& command, ReferencesOptions& options) {
   command.add_option("--folder", options.folder, "Where the stored references lie")
       ->type_name("DIR")
       ->capture_default_str();
@@ -26,22 +25,22 @@ void add_shared_flags(CLI::App& command, ReferencesOptions& options) {
 
 }  // namespace
 
-void add_references_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_references_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "references",
       "The stored reference pictures: what there is, does the path tracer still agree, make them anew");
   command->require_subcommand(1);
   const auto options = std::make_shared<ReferencesOptions>();
-  CLI::App* list =
+  Command* list =
       command->add_subcommand("list", "Every stored reference: scene, lights, samples, error, state");
-  CLI::App* check = command->add_subcommand(
+  Command* check = command->add_subcommand(
       "check",
       "Render afresh with fewer samples and another seed, and test whether the pictures are the same "
       "(exit code 1 if one is not, or is stale)");
-  CLI::App* update =
+  Command* update =
       command->add_subcommand("update", "Render with all samples, store, and print what changed");
-  for (CLI::App* sub : {list, check, update}) add_shared_flags(*sub, *options);
-  for (CLI::App* sub : {check, update}) add_names(*sub, *options);
+  for (Command* sub : {list, check, update}) add_shared_flags(*sub, *options);
+  for (Command* sub : {check, update}) add_names(*sub, *options);
   check
       ->add_option("--samples", options->samples_per_batch,
                    "Indirect samples a pixel in each of the 32 renders")

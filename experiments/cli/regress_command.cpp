@@ -4,7 +4,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "common/run/atomic_file.h"
 #include "experiments/cli/commands.h"
@@ -106,8 +105,8 @@ int regress(const RegressOptions& options) {
 
 }  // namespace
 
-void add_regress_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_regress_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "regress",
       "Compares fresh runs of experiments with the published results: errors beyond their intervals, "
       "counters "
@@ -139,8 +138,8 @@ void add_regress_command(CLI::App& app, Action& action) {
   command->callback([&action, options] { action = [options] { return regress(*options); }; });
 }
 
-void add_publish_command(CLI::App& app, Action& action) {
-  CLI::App* command =
+void add_publish_command(Command& app, Action& action) {
+  Command* command =
       app.add_subcommand("publish",
                          "Keeps the results of an experiment in a small form to be committed: records.jsonl "
                          "without what belongs to the machine's folders, and table.csv");

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -11,8 +10,8 @@
 
 namespace relight::cli {
 
-void add_render_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("render", "Pictures by one method, without a reference");
+void add_render_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand("render", "Pictures by one method, without a reference");
   const auto options = std::make_shared<RenderOptions>();
   add_session_flags(*command, options->session);
   command->add_option("--method", options->method, "Method (see `relight methods`)")
@@ -30,7 +29,7 @@ void add_render_command(CLI::App& app, Action& action) {
     std::string frames, times;
   };
   const auto wanted = std::make_shared<Wanted>();
-  CLI::Option* frames =
+  Option* frames =
       command
           ->add_option(
               "--frames", wanted->frames,

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/experiment_page/experiment_page.h"
@@ -12,8 +11,8 @@
 
 namespace relight::cli {
 
-void add_report_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_report_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "report", "Makes the page of a comparison or of an experiment again, from its records and images");
   const auto folder = std::make_shared<std::string>();
   command->add_option("folder", *folder, "Folder that `relight compare` or `relight run` wrote")

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/session_flags.h"
@@ -82,8 +81,8 @@ int run(RunOptions options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
+void add_run_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand(
       "run",
       "Runs an experiment: every combination of scenes, lights, presets, seeds and knob values of a file "
       "(experiments/*.toml). A run that was done before is not done again, so an interrupted experiment goes "
@@ -106,7 +105,7 @@ void add_run_command(CLI::App& app, Action& action) {
           "stage and whenever progress is reported, so it ends somewhat later. In place of the file's "
           "time_limit_s; 0: none")
       ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+      ->non_negative();
   command->add_flag("--again", options->again, "Also runs that were done before");
   command
       ->add_option(
@@ -114,9 +113,9 @@ void add_run_command(CLI::App& app, Action& action) {
           "Processes at a time, each with the runs of one scene and lighting. Errors and counters are the "
           "same; times are those of a machine that had more to do: records are marked shared_machine and "
           "their times are not compared (docs/experiments.md)")
-      ->check(CLI::Range(1, 64))
+      ->within(1, 64)
       ->capture_default_str();
-  command->add_option("--place", options->place)->group("");  // how --jobs starts its processes
+  command->add_option("--place", options->place)->hidden();  // how --jobs starts its processes
   add_machine_flags(*command, options->session);
   command->callback([&action, options] { action = [options] { return run(*options); }; });
 }

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "common/scene/scene_file.h"
 #include "experiments/cli/commands.h"
@@ -43,8 +42,8 @@ int export_scene(const ExportOptions& options) {
   return 0;
 }
 
-void add_export_command(CLI::App& parent, Action& action) {
-  CLI::App* command = parent.add_subcommand(
+void add_export_command(Command& parent, Action& action) {
+  Command* command = parent.add_subcommand(
       "export", "The scene, its lights and the view as input of another renderer (see docs/mitsuba.md)");
   const auto options = std::make_shared<ExportOptions>();
   MitsubaExportOptions& mitsuba = options->mitsuba;
@@ -71,13 +70,13 @@ void add_export_command(CLI::App& parent, Action& action) {
 
 }  // namespace
 
-void add_scene_command(CLI::App& app, Action& action) {
-  CLI::App* command =
+void add_scene_command(Command& app, Action& action) {
+  Command* command =
       app.add_subcommand("scene", "Built-in scenes, what is in a scene, and scenes for other renderers");
   command->require_subcommand(1);
-  CLI::App* list = command->add_subcommand("list", "The built-in scenes and their parameters");
+  Command* list = command->add_subcommand("list", "The built-in scenes and their parameters");
   list->callback([&action] { action = list_scenes; });
-  CLI::App* info = command->add_subcommand(
+  Command* info = command->add_subcommand(
       "info",
       "Sizes, closedness, albedo range, glossy share, environment, lighting presets and repairs of a scene");
   const auto name = std::make_shared<std::string>();

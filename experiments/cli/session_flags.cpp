@@ -1,10 +1,8 @@
 #include "experiments/cli/session_flags.h"
 
-#include <CLI/CLI.hpp>
-
 namespace relight::cli {
 
-void add_session_flags(CLI::App& command, SessionOptions& options) {
+void add_session_flags(Command& command, SessionOptions& options) {
   command
       .add_option("--scene", options.scene,
                   "Built-in scene with parameters (see `relight scene list`), or a file")
@@ -28,7 +26,7 @@ void add_session_flags(CLI::App& command, SessionOptions& options) {
   add_machine_flags(command, options);
 }
 
-void add_machine_flags(CLI::App& command, SessionOptions& options) {
+void add_machine_flags(Command& command, SessionOptions& options) {
   command.add_option("--threads", options.threads, "Threads, 0 for all cores; results do not depend on it")
       ->capture_default_str();
   command.add_option("--gpu", options.gpu, "OpenGL context: osmesa, egl, or auto (EGL if it is a real GPU)")
@@ -39,7 +37,7 @@ void add_machine_flags(CLI::App& command, SessionOptions& options) {
   command.add_flag("--quiet", options.quiet, "No progress on standard error");
 }
 
-void add_cache_folder_flag(CLI::App& command, SessionOptions& options) {
+void add_cache_folder_flag(Command& command, SessionOptions& options) {
   command
       .add_option("--cache", options.cache_folder,
                   "Folder of precomputed data (default: $RELIGHT_CACHE, else $XDG_CACHE_HOME/relight, else "
@@ -47,7 +45,7 @@ void add_cache_folder_flag(CLI::App& command, SessionOptions& options) {
       ->type_name("DIR");
 }
 
-void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::string>& settings) {
+void add_knob_flags(Command& command, std::string& preset, std::vector<std::string>& settings) {
   command
       .add_option("--preset", preset,
                   "Knob values to start from: paper (the defaults), or a preset of a method (see `relight "
@@ -59,7 +57,7 @@ void add_knob_flags(CLI::App& command, std::string& preset, std::vector<std::str
       ->allow_extra_args(false);
 }
 
-void add_effect_flags(CLI::App& command, EffectOptions& options) {
+void add_effect_flags(Command& command, EffectOptions& options) {
   command
       .add_option(
           "--tolerance", options.tolerance,

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "common/run/atomic_file.h"
 #include "experiments/cli/commands.h"
@@ -41,7 +40,7 @@ int run(const TuneOptions& options) {
   return result.keeps_bounds && result.all_met() ? 0 : 1;
 }
 
-void add_bound_flags(CLI::App& command, TuneOptions& options) {
+void add_bound_flags(Command& command, TuneOptions& options) {
   command.add_option("--error", options.error, "Largest error allowed, e.g. 0.05 or 5%")
       ->required()
       ->type_name("SHARE");
@@ -61,7 +60,7 @@ void add_bound_flags(CLI::App& command, TuneOptions& options) {
       ->capture_default_str();
 }
 
-void add_search_flags(CLI::App& command, TuneOptions& options) {
+void add_search_flags(Command& command, TuneOptions& options) {
   command.add_option("--method", options.methods, "Method to tune; may be repeated (default: all)")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -93,10 +92,10 @@ void add_search_flags(CLI::App& command, TuneOptions& options) {
 
 }  // namespace
 
-void add_tune_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("tune",
-                                         "Finds the cheapest setting that keeps an error, and verifies it "
-                                         "under lights that the search did not see");
+void add_tune_command(Command& app, Action& action) {
+  Command* command = app.add_subcommand("tune",
+                                        "Finds the cheapest setting that keeps an error, and verifies it "
+                                        "under lights that the search did not see");
   command->footer(lesson);
   const auto options = std::make_shared<TuneOptions>();
   add_session_flags(*command, options->session);

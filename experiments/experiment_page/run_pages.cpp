@@ -3,6 +3,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for_each.h>
 
 #include "common/image/exr.h"
 #include "common/run/atomic_file.h"
@@ -61,16 +62,19 @@ std::vector<RunFolder> write_run_pages(const fs::path& folder, const std::vector
                                        RunPages run_pages) {
   const std::map<std::string, fs::path> images = images_by_command(folder);
   std::vector<RunFolder> folders(records.size());
+  std::map<fs::path, size_t> to_write;  // of two records of one folder the later
   for (size_t i = 0; i < records.size(); ++i) {
     const auto image = images.find(records[i].command);
     if (records[i].command.empty() || image == images.end()) continue;
     const fs::path run_folder = image->second.parent_path(), page = run_folder / "index.html";
-    if (run_pages == RunPages::all || !up_to_date(page, image->second)) {
-      remove_leftovers(run_folder);
-      write_report(run_folder, {records[i]}, "../index.html");
-    }
+    if (run_pages == RunPages::all || !up_to_date(page, image->second)) to_write[run_folder] = i;
     folders[i] = {run_folder, as_address((run_folder.filename() / "index.html").generic_string())};
   }
+  // Each takes a second or so, most of it to compress its pictures.
+  tbb::parallel_for_each(to_write, [&](const std::pair<const fs::path, size_t>& page) {
+    remove_leftovers(page.first);
+    write_report(page.first, {records[page.second]}, "../index.html");
+  });
   return folders;
 }
 

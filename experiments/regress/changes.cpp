@@ -72,6 +72,13 @@ void note_new_knobs(const RunRecord& was, const RunRecord& now, Changes& out) {
       out.push_back({"knobs", Weight::note, fmt::format("knob {} is gone, it was {}", knob, value)});
 }
 
+// Of what older records do not have. False if both are known and differ.
+bool compare_known(const char* what, const std::string& was, const std::string& now, Changes& out) {
+  if (was.empty() || now.empty() || was == now) return true;
+  compare_words(what, was, now, out);
+  return false;
+}
+
 }  // namespace
 
 std::vector<Change> find_changes(const RunRecord& was, const RunRecord& now, const Tolerances& tolerances) {
@@ -81,8 +88,11 @@ std::vector<Change> find_changes(const RunRecord& was, const RunRecord& now, con
   compare_words("scene content", was.scene_hash, now.scene_hash, out);
   compare_words("light paths", was.light_paths, now.light_paths, out);
   compare_words("reference paths", was.reference_paths, now.reference_paths, out);
-  // Another scene or other paths explain whatever else differs.
-  if (was.scene_hash != now.scene_hash || was.reference_paths != now.reference_paths) return out;
+  const bool same_place = compare_known("camera or size", was.view_hash, now.view_hash, out) &
+                          compare_known("lights", was.lighting_hash, now.lighting_hash, out);
+  // Another scene, place or other paths explain whatever else differs.
+  if (was.scene_hash != now.scene_hash || !same_place || was.reference_paths != now.reference_paths)
+    return out;
   // Nothing was computed by a run that failed, or only half of it.
   const bool both_ran = was.failed_stages.empty() && now.failed_stages.empty();
   const bool by_the_clock = !was.repeatable || !now.repeatable;

@@ -1,6 +1,8 @@
 #include "experiments/regress/publish.h"
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,19 @@ void round_numbers(Json& json) {
     json = std::strtod(fmt::format("{:.7g}", json.get<double>()).c_str(), nullptr);
   else if (json.is_structured())
     for (Json& value : json) round_numbers(value);
+}
+
+// What explain_pixels, or explain-error by hand, left in the folders of runs. Returns how many.
+size_t publish_waterfalls(const std::filesystem::path& from, const std::filesystem::path& to) {
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(from)) {
+    std::ifstream in(entry.path() / "waterfall.csv", std::ios::binary);
+    if (!entry.is_directory() || !in) continue;
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    write_text_atomically(to / "waterfalls" / (entry.path().filename().string() + ".csv"), text);
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace
@@ -47,7 +62,9 @@ std::string publish(const std::filesystem::path& from, const std::filesystem::pa
   }
   write_text_atomically(to / "records.jsonl", lines);
   write_text_atomically(to / "table.csv", result_csv(records));
+  const size_t waterfalls = publish_waterfalls(from, to);
   std::string text = fmt::format("{} runs published in {}\n", records.size(), to.string());
+  if (waterfalls > 0) text += fmt::format("{} waterfalls of their errors in waterfalls/\n", waterfalls);
   const auto warn = [&](size_t count, const char* why) {
     if (count > 0) text += fmt::format("warning: {} of them {}\n", count, why);
   };

@@ -11,10 +11,6 @@ namespace {
 
 constexpr int precompute_version = 3;
 
-struct StoredSample {
-  glm::vec3 position, shading_normal, geometric_normal, diffuse;
-};
-
 }  // namespace
 
 bool wants_environment(const PrepareContext& context) {
@@ -23,18 +19,18 @@ bool wants_environment(const PrepareContext& context) {
 }
 
 std::string cache_key(const PrepareContext& context) {
-  return fmt::format("version={};layout={};{};{}{}", precompute_version, sizeof(StoredSample),
+  return fmt::format("version={};layout={};{};{}{}", precompute_version, sizeof(LambertSample),
                      pixel_words(context), context.knobs.precompute_key(),
                      wants_environment(context) ? ";with environment" : "");
 }
 
 std::vector<std::byte> to_bytes(const Artefact& artefact) {
-  std::vector<StoredSample> samples;
+  std::vector<LambertSample> samples;
   samples.reserve(artefact.gather.samples.size());
-  for (const SurfaceSample& s : artefact.gather.samples)
-    samples.push_back({s.position, s.shading_normal, s.geometric_normal, s.diffuse});
+  for (const SurfaceSample& s : artefact.gather.samples) samples.push_back(lambert_part(s));
   std::vector<std::byte> out;
   append_values(out, samples);
+  samples = {};
   append_values(out, artefact.gather.first);
   for (const Links* links : {&artefact.diffuse, &artefact.glossy}) {
     append_values(out, std::vector<uint32_t>{links->per_pixel});
@@ -53,13 +49,9 @@ std::vector<std::byte> to_bytes(const Artefact& artefact) {
 Artefact from_bytes(const std::vector<std::byte>& bytes) {
   ByteReader reader(bytes);
   Artefact artefact;
-  for (const StoredSample& stored : reader.next<StoredSample>()) {
-    SurfaceSample s;
-    s.position = stored.position, s.diffuse = stored.diffuse;
-    s.shading_normal = stored.shading_normal, s.geometric_normal = stored.geometric_normal;
-    s.valid = true;
-    artefact.gather.samples.push_back(s);
-  }
+  const std::vector<LambertSample> samples = reader.next<LambertSample>();
+  artefact.gather.samples.reserve(samples.size());
+  for (const LambertSample& s : samples) artefact.gather.samples.push_back(surface_sample(s));
   artefact.gather.first = reader.next<uint32_t>();
   for (Links* links : {&artefact.diffuse, &artefact.glossy}) {
     const std::vector<uint32_t> per_pixel = reader.next<uint32_t>();

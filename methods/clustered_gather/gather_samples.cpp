@@ -98,12 +98,16 @@ size_t environment_clusters(const Worker& worker, size_t clusters) {
 }
 
 // One gather sample for each cluster of the points, diffuse albedo = sum of weight x albedo of the members.
-std::vector<SurfaceSample> reduce(Worker& worker, const Metric6& metric, const GatherSettings& settings,
+std::vector<LambertSample> reduce(Worker& worker, const Metric6& metric, const GatherSettings& settings,
                                   size_t clusters, uint64_t seed) {
   const size_t limit = clusters == 0 ? worker.points.size() : clusters;
   if (worker.points.size() <= limit) {
-    std::vector<SurfaceSample> all = worker.points;
-    for (size_t i = 0; i < all.size(); ++i) all[i].diffuse *= worker.weights[i];
+    std::vector<LambertSample> all;
+    all.reserve(worker.points.size());
+    for (size_t i = 0; i < worker.points.size(); ++i) {
+      all.push_back(lambert_part(worker.points[i]));
+      all.back().diffuse *= worker.weights[i];
+    }
     return all;
   }
   worker.points6.clear();
@@ -115,9 +119,10 @@ std::vector<SurfaceSample> reduce(Worker& worker, const Metric6& metric, const G
   clustering_settings.seed = seed;
   const Clustering clustering = cluster_points(worker.points6, clustering_settings);
   const Members members = members_of(clustering.cluster_of, clustering.centres.size());
-  std::vector<SurfaceSample> reduced;
+  std::vector<LambertSample> reduced;
+  reduced.reserve(clustering.centres.size());
   for (size_t k = 0; k < clustering.centres.size(); ++k) {
-    reduced.push_back(representative(worker.points, members.of(k)));
+    reduced.push_back(lambert_part(representative(worker.points, members.of(k))));
     glm::dvec3 albedo(0.0);
     for (const uint32_t i : members.of(k))
       albedo += glm::dvec3(worker.points[i].diffuse) * glm::dvec3(worker.weights[i]);
@@ -137,10 +142,22 @@ void append_rows(const std::vector<std::vector<SparseEntryRgb>>& rows, uint32_t 
 
 }  // namespace
 
+LambertSample lambert_part(const SurfaceSample& s) {
+  return {s.position, s.shading_normal, s.geometric_normal, s.diffuse};
+}
+
+SurfaceSample surface_sample(const LambertSample& kept) {
+  SurfaceSample s;
+  s.position = kept.position, s.diffuse = kept.diffuse;
+  s.shading_normal = kept.shading_normal, s.geometric_normal = kept.geometric_normal;
+  s.valid = true;
+  return s;
+}
+
 void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const Metric6& metric,
                         const GatherSettings& settings, Progress& progress, StageLog& log,
                         GatherSamples& out) {
-  std::vector<std::vector<SurfaceSample>> reduced(view.samples.size());
+  std::vector<std::vector<LambertSample>> reduced(view.samples.size());
   std::optional<EnvironmentSquare> square;
   if (settings.environment_samples > 0) square.emplace(settings.environment_samples);
   const int levels = square ? std::bit_width(square->texels()) / 2 : 0;
@@ -168,7 +185,7 @@ void add_gather_samples(const RayTracer& tracer, const ViewClusters& view, const
   if (total >= (size_t{1} << 32)) fail("clustered_gather: {} gather samples; at most 2^32 - 1", total);
   out.samples.reserve(total);
   for (auto& r : reduced) {
-    out.samples.insert(out.samples.end(), r.begin(), r.end());
+    for (const LambertSample& s : r) out.samples.push_back(surface_sample(s));
     out.first.push_back(static_cast<uint32_t>(out.samples.size()));
     r = {};
   }

@@ -23,6 +23,14 @@
 
 namespace relight::clustered_gather {
 
+// What is left of a sample once it is Lambertian: all that is lit, and kept in the artefact cache. 48 bytes
+// where a SurfaceSample has 128.
+struct LambertSample {
+  glm::vec3 position, shading_normal, geometric_normal, diffuse;
+};
+LambertSample lambert_part(const SurfaceSample& sample);
+SurfaceSample surface_sample(const LambertSample& sample);
+
 // Samples first[k] .. first[k + 1] - 1 belong to view cluster k. Their diffuse albedo is multiplied by their
 // weight, as in the paper: the sum of the radiance that leaves them is what the view cluster gathers.
 struct GatherSamples {

@@ -7,15 +7,25 @@
 
 namespace relight::direct_to_indirect {
 
+namespace {
+
+Upsampling upsampling_of(const KnobValues& knobs) {
+  const std::string& name = knobs.choice("upsampling");
+  return name == "none" ? Upsampling::none : name == "edges" ? Upsampling::edges : Upsampling::closest;
+}
+
+}  // namespace
+
 IndirectGrid::IndirectGrid(const DeepFrameBuffer& buffer, const KnobValues& knobs)
-    : buffer_(buffer),
-      upsampling_(knobs.choice("upsampling") == "none" ? Upsampling::none : Upsampling::closest) {
-  if (upsampling_ == Upsampling::none) {
-    subpixels_.emplace();
-    subpixels_->view = {buffer.view.camera, 2 * buffer.view.width, 2 * buffer.view.height};
-    subpixels_->indirect = buffer.direct;
+    : buffer_(buffer), upsampling_(upsampling_of(knobs)) {
+  if (upsampling_ == Upsampling::closest && buffer.wanted.empty()) return;
+  const IndirectSources sources = indirect_sources(buffer, upsampling_);
+  if (upsampling_ != Upsampling::closest) {
+    grid_.emplace();
+    grid_->view = {buffer.view.camera, sources.width, sources.height};
+    grid_->indirect = sources.samples(buffer);
   }
-  if (!buffer.wanted.empty()) mark_tiles();
+  if (!buffer.wanted.empty()) mark_tiles(sources.of);
 }
 
 double IndirectGrid::tile_share() const {
@@ -24,10 +34,9 @@ double IndirectGrid::tile_share() const {
          static_cast<double>(tiles_.size());
 }
 
-void IndirectGrid::mark_tiles() {
+void IndirectGrid::mark_tiles(const std::vector<uint32_t>& sources) {
   const ViewTiles tiles(samples());
   tiles_.assign(static_cast<size_t>(tiles.count()), 0);
-  const std::vector<uint32_t> sources = indirect_sources(buffer_, upsampling_);
   const auto width = static_cast<size_t>(buffer_.view.width);
   const auto grid_width = static_cast<uint32_t>(samples().view.width);
   for (size_t i = 0; i < sources.size(); ++i) {

@@ -1,5 +1,6 @@
-// The view samples that get a row of the final-gather matrix: one a pixel (Hasan 2006 section 3.6), or with
-// upsampling=none the 2x2 sub-pixels; and, where only some pixels are wanted, which of them.
+// The view samples that get a row of the final-gather matrix: one a pixel (Hasan 2006 section 3.6), with
+// upsampling=edges also sub-pixels that match none of them, with none all 2x2 sub-pixels; and, where only
+// some pixels are wanted, which of them.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ class IndirectGrid {
 
   Upsampling upsampling() const { return upsampling_; }
   // `indirect` and the size of `view` are those of the grid; nothing else is meant to be read.
-  const DeepFrameBuffer& samples() const { return subpixels_ ? *subpixels_ : buffer_; }
+  const DeepFrameBuffer& samples() const { return grid_ ? *grid_ : buffer_; }
   // By number in ViewTiles of samples(): 1 = holds a sample that a wanted pixel's light comes from. Whole
   // tiles, because their samples share the cut of the hierarchy. Empty if all pixels are wanted.
   const std::vector<uint8_t>& tiles() const { return tiles_; }
@@ -27,11 +28,11 @@ class IndirectGrid {
   double tile_share() const;
 
  private:
-  void mark_tiles();
+  void mark_tiles(const std::vector<uint32_t>& sources);
 
   const DeepFrameBuffer& buffer_;
   Upsampling upsampling_;
-  std::optional<DeepFrameBuffer> subpixels_;
+  std::optional<DeepFrameBuffer> grid_;  // unless it is the view's own
   std::vector<uint8_t> tiles_;
 };
 

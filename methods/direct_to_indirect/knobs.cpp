@@ -86,8 +86,8 @@ KnobTable knob_table() {
        "Of this many times the coefficients kept, the refit chooses those that serve its lights best; 1: no choice."},
       {"refit_ridge", real, precompute, "0.1", 0.001, 1000, {}, "refit",
        "Weight of the original values in the refit, in units of each coefficient's own squared response: how much its lights are distrusted."},
-      {"upsampling", choice, precompute, "closest", 0, 0, {"closest", "none"}, "final_gather",
-       "Indirect light is computed once a pixel and each of its 2x2 sub-pixels takes the closest pixel's (paper), or at every sub-pixel: four times the rows."},
+      {"upsampling", choice, precompute, "closest", 0, 0, {"closest", "edges", "none"}, "final_gather",
+       "Indirect light is computed once a pixel and each of its 2x2 sub-pixels takes the closest pixel's (paper); at those that match no pixel around them, too (edges); or at every sub-pixel, four times the rows."},
       {"shadows", choice, relight, "auto", 0, 0, {"auto", "map", "traced"}, "direct_shading",
        "Shadows on view and gather samples: shadow maps (paper; GPU only) or exact traced rays; auto: traced if device=cpu, else map."},
       {"area_light_samples", integer, relight, "16", 1, 4096, {}, "direct_shading",
@@ -121,13 +121,16 @@ std::vector<KnobPreset> knob_presets() {
        "The paper's number of coefficients, shared by the 4x4 rows of a tile (view_basis.h) and refitted to "
        "random lights (light_refit.h); direct light averaged over four points of a gather sample's cell "
        "(light_points.h); rays instead of the clamp between close points (near_field.h) and along glossy "
-       "lobes (glossy_rays.h); 16-bit weights by rows, which such a basis suits.",
+       "lobes (glossy_rays.h); rows of their own for sub-pixels that match no pixel (indirect_grid.h); "
+       "16-bit "
+       "weights by rows, which such a basis suits.",
        {{"light_points", "4"},
         {"view_basis", "haar"},
         {"support_exponent", "0.6"},
         {"refit_lights", "512"},
         {"near_field", "hemisphere"},
         {"glossy_gather", "rays"},
+        {"upsampling", "edges"},
         {"product", "rows"},
         {"weights", "16"}}}};
 }

@@ -35,23 +35,22 @@ uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
 
 // Lanes that may see the front of some member. With half-angle a of the cone of normals and angular radius b
 // of the cluster, every member faces away if the angle between axis and direction to the view sample is at
-// least 90 + a + b.
+// least 90 + a + b, which must be below 180: a + b < 90. Both conditions times the distance d: with
+// sin b = radius / d one root a lane is left, and no division.
 uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) const {
   if (!(cluster.cone_cosine > 0.0f)) return mask;
   const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
-  const float radius2 = glm::dot(half, half), cos_a = cluster.cone_cosine;
+  const float radius2 = glm::dot(half, half), radius = std::sqrt(radius2), cos_a = cluster.cone_cosine;
   // Rounding of the bound normals may let a member lie a few ulps outside the cone.
   const float sin_a = std::sqrt(std::max(0.0f, 1.0f - cos_a * cos_a)) + 1e-4f;
   std::array<uint32_t, lanes> maybe;
   for (size_t i = 0; i < lanes; ++i) {
     const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
     const float d2 = wx * wx + wy * wy + wz * wz;
-    const float sin2_b = radius2 / d2;
-    const float sin_b = std::sqrt(sin2_b), cos_b = std::sqrt(std::max(0.0f, 1.0f - sin2_b));
-    const float towards =
-        (wx * cluster.cone_axis.x + wy * cluster.cone_axis.y + wz * cluster.cone_axis.z) / std::sqrt(d2);
-    const bool away =
-        (d2 > radius2) & (cos_a * cos_b > sin_a * sin_b) & (towards < -(sin_a * cos_b + cos_a * sin_b));
+    const float d_cos_b = std::sqrt(std::max(0.0f, d2 - radius2));
+    const float d_towards = wx * cluster.cone_axis.x + wy * cluster.cone_axis.y + wz * cluster.cone_axis.z;
+    const bool away = (d2 > radius2) & (cos_a * d_cos_b > sin_a * radius) &
+                      (d_towards < -(sin_a * d_cos_b + cos_a * radius));
     maybe[i] = away ? 0 : 1;
   }
   return mask & to_mask(maybe);

@@ -54,6 +54,16 @@ TEST(RegressRules, AnErrorChangesBeyondTheIntervalsOfBoth) {
   EXPECT_EQ(after("indirect bias", [](RunRecord& r) { r.errors->value.bias -= 0.03; }), "same");
 }
 
+// Red if a changed camera passes for a changed method, or records from before hashes count as changed.
+TEST(RegressRules, ChangedLightsOrCameraAreNamedAndExplainTheRest) {
+  RunRecord published = example();
+  const auto move_light = [](RunRecord& r) { r.lighting_hash = "new", r.errors->value.relative = 0.5; };
+  EXPECT_EQ(after("lights", move_light, published), "same");
+  published.lighting_hash = "old";
+  EXPECT_EQ(after("lights", move_light, published), "change");
+  EXPECT_EQ(after("relative", move_light, published), "same") << "explained by the lights";
+}
+
 TEST(RegressRules, CountersAndBytesAreExactOnOneMachine) {
   EXPECT_EQ(after("count.links", [](RunRecord& r) { r.counters["links"] += 1; }), "change");
   EXPECT_EQ(after("count.links", [](RunRecord& r) { r.counters.erase("links"); }), "change");
@@ -161,6 +171,23 @@ TEST(Publish, KeepsWhatIsComparedAndNoFolders) {
   EXPECT_NE(line.find("0.3333333,"), std::string::npos) << line;
   const auto changes = find_changes(record_from_json(line), record, {});
   EXPECT_TRUE(changes.empty()) << changes.front().words;
+}
+
+// Red if waterfalls stay behind, or whatever else lies in the folder of a run is published.
+TEST(Publish, TakesTheWaterfallsOfRunsAlong) {
+  TemporaryFolder folder;
+  const std::filesystem::path out = folder / "out", results = folder / "results";
+  append_record(out / "records.jsonl", example());
+  std::filesystem::create_directories(out / "hall_spot_m_paper");
+  std::filesystem::create_directories(out / "hall_omni_m_paper");
+  write_text(out / "hall_spot_m_paper/waterfall.csv", "kind,stage\n");
+  write_text(out / "hall_spot_m_paper/waterfall.json", "{}");
+  EXPECT_NE(publish(out, results).find("1 waterfalls"), std::string::npos);
+  EXPECT_EQ(read_text(results / "waterfalls/hall_spot_m_paper.csv"), "kind,stage\n");
+  size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(results))
+    files += entry.is_regular_file();
+  EXPECT_EQ(files, 3u) << "records, table and one waterfall";
 }
 
 struct Command {

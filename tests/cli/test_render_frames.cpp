@@ -49,6 +49,15 @@ TEST(RenderFrames, ShowTheLightingAtTheirTimes) {
   // One picture of the same lighting, at --at.
   ASSERT_EQ(run_program(command(folder, "--at 2")).exit_code, 0);
   EXPECT_NEAR(brightness(folder / "out/frame.exr"), 3.0f * first, 1e-3f * first);
+  // The same moment in the lighting's name; two moments are a mistake.
+  const std::string file = folder / "moving.toml";
+  const auto named = [&](const std::string& more) {
+    std::string text = command(folder, more);
+    return run_program(text.replace(text.find(file), file.size(), file + "@1"));
+  };
+  ASSERT_EQ(named("").exit_code, 0);
+  EXPECT_NEAR(brightness(folder / "out/frame.exr"), 2.0f * first, 1e-3f * first);
+  EXPECT_NE(named("--at 2").err.find("two times"), std::string::npos);
 }
 
 // A killed run leaves whole frames only; they are kept, the others made. Red if frames that exist

@@ -174,7 +174,8 @@ std::string moving_runs(const std::string& lights, const std::string& method) {
 // Red if views or moments share a folder, a record or a reference, or a view is not the scene's camera of
 // that name; with one moment alone if a session is kept from view to view.
 TEST(RunExperiment, RunsOnSeveralViewsAndAlongLightSequences) {
-  for (const auto& [lights, runs] : {std::pair("sweep@0:1:0.5", size_t{6}), std::pair("sweep@0", size_t{2})}) {
+  for (const auto& [lights, runs] :
+       {std::pair("sweep@0:1:0.5", size_t{6}), std::pair("sweep@0", size_t{2})}) {
     Trial trial;
     write_text(trial.folder / "moving.toml", moving_scene);
     const RunList list = trial.list(moving_runs(lights, trial.methods[0]->name()));

@@ -1,4 +1,5 @@
 // The CPU's fast relight against its double-precision oracle, and lights that move one at a time.
+#include <cstdio>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -22,11 +23,12 @@ const Light beam = tiny::spot({-0.4f, 0.9f, 0.5f}, {0.2f, -1.0f, -0.1f}, 15.0f, 
 // of its row or tile; such errors average out over a row, the bound is 1 %. Direct: same rays, same formulas.
 // Red if blocks, albedos, rows or coefficients are mixed up.
 TEST(TransferCpu, AgreesWithItsDoublePrecisionOracle) {
-  for (const bool glossy : {false, true}) {
+  for (const auto& [glossy, rows] : {std::pair(false, "closest"), {true, "closest"}, {true, "edges"}}) {
     TransferBench bench(tiny::room(2.0f, glm::vec3(0.0f), glossy));
-    const auto cpu = bench.prepare({{"device", "cpu"}, {"weights", "float32"}});
-    const auto quantised = bench.prepare({{"device", "cpu"}});
-    const auto oracle = bench.prepare({{"device", "oracle"}, {"shadows", "traced"}});
+    const std::pair<std::string, std::string> upsampling("upsampling", rows);
+    const auto cpu = bench.prepare({{"device", "cpu"}, {"weights", "float32"}, upsampling});
+    const auto quantised = bench.prepare({{"device", "cpu"}, upsampling});
+    const auto oracle = bench.prepare({{"device", "oracle"}, {"shadows", "traced"}, upsampling});
     for (const LightingState& lighting :
          {tiny::lighting({lamp}), tiny::lighting({beam}), tiny::lighting({lamp, beam})}) {
       StageLog log;
@@ -38,6 +40,28 @@ TEST(TransferCpu, AgreesWithItsDoublePrecisionOracle) {
       EXPECT_LT(relative_difference(quantised->relight(lighting, log).indirect, b.indirect), 0.01);
     }
   }
+}
+
+// Against a row for every sub-pixel; all links and coefficients, so that nothing else differs. Red if rows of
+// their own go to other sub-pixels than those that match no pixel. Prints what `edges` leaves of the
+// difference.
+TEST(TransferCpu, RowsAtEdgesBringThePictureCloserToARowForEachSubpixel) {
+  TransferBench bench(tiny::room(2.0f, glm::vec3(0.0f)), 63, 45);
+  std::vector<Image> indirect;
+  for (const char* upsampling : {"closest", "edges", "none"}) {
+    StageLog log;
+    const auto prepared = bench.prepare({{"device", "cpu"},
+                                         {"weights", "float32"},
+                                         {"link_threshold", "0"},
+                                         {"coefficients", "0"},
+                                         {"upsampling", upsampling}});
+    indirect.push_back(prepared->relight(tiny::lighting({lamp}), log).indirect);
+  }
+  const double closest = relative_difference(indirect[0], indirect[2]),
+               edges = relative_difference(indirect[1], indirect[2]);
+  std::printf("relative difference: closest %.4f edges %.4f\n", closest, edges);
+  EXPECT_GT(closest, 0.002) << "else there is nothing to gain";
+  EXPECT_LT(edges, 0.8 * closest);
 }
 
 // Red if a thread's share of the work shows.

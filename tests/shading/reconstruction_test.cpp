@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "common/gpu/context.h"
 #include "common/run/error.h"
@@ -114,6 +115,42 @@ TEST(Reconstruction, WithoutUpsamplingEachSubsampleHasItsOwnValue) {
   const auto gpu = Reconstruction(buffer, Upsampling::none).resolve(on_gpu(values), on_gpu(values), log);
   expect_equal(gpu.indirect, expected);
   const FusedReconstruction fused(buffer, Upsampling::none);
+  std::vector<glm::vec4> padded;
+  for (const glm::vec3& v : values) padded.emplace_back(v, 0.0f);
+  const std::vector<glm::vec4> no_direct(fused.direct_values(), glm::vec4(0.0f));
+  expect_equal(fused.resolve(no_direct, padded, log).indirect, expected);
+}
+
+// A panel so narrow that no pixel's centre sees it. Red if a sub-sample on it takes the wall's value, one of
+// the wall gets a row of its own, two share a place, or GPU and CPU count own values differently.
+TEST(Reconstruction, SubsamplesThatMatchNoPixelHaveAValueOfTheirOwn) {
+  const auto context = gpu::Context::create("osmesa");
+  const DeepFrameBuffer buffer = buffer_of(13, 6, [](float x, float y) {
+    const bool panel = x > 5.6f && x < 5.9f;
+    return sample_at({x * 0.1f, -y * 0.1f, 0}, panel ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1));
+  });
+  const IndirectSources sources = indirect_sources(buffer, Upsampling::edges);
+  EXPECT_EQ(sources.width, 13);
+  EXPECT_EQ(sources.height, 8 + 4) << "six rows, two left over to a multiple of four, one row of tiles";
+  ASSERT_EQ(sources.own.size(), 12u) << "one of the two sub-samples of a pixel's row";
+  const std::vector<SurfaceSample> samples = sources.samples(buffer);
+  std::set<uint32_t> places;
+  for (const auto& own : sources.own) {
+    places.insert(own.place);
+    EXPECT_GE(own.place, 13u * 8u);
+    EXPECT_EQ(samples[own.place].shading_normal, glm::vec3(1, 0, 0));
+    EXPECT_EQ(sources.of[own.subsample], own.place);
+  }
+  EXPECT_EQ(places.size(), 12u);
+  const auto values = random_values(samples.size(), 2);
+  std::vector<glm::vec3> subsamples;
+  for (const uint32_t source : sources.of) subsamples.push_back(values[source]);
+  const Image expected = box_filter_2x2(subsamples, 13, 6);
+  StageLog log;
+  const auto no_light = on_gpu(std::vector<glm::vec3>(buffer.direct.size(), glm::vec3(0.0f)));
+  expect_equal(Reconstruction(buffer, Upsampling::edges).resolve(no_light, on_gpu(values), log).indirect,
+               expected);
+  const FusedReconstruction fused(buffer, Upsampling::edges);
   std::vector<glm::vec4> padded;
   for (const glm::vec3& v : values) padded.emplace_back(v, 0.0f);
   const std::vector<glm::vec4> no_direct(fused.direct_values(), glm::vec4(0.0f));

@@ -8,8 +8,8 @@ namespace relight::direct_to_indirect {
 
 hard::Cases hard_cases() {
   hard::Cases all;
-  for (const auto& part :
-       {precompute_cases(), glossy_cases(), light_cases(), view_cases(), environment_cases()})
+  for (const auto& part : {precompute_cases(), glossy_cases(), light_cases(), view_cases(), surface_cases(),
+                           environment_cases()})
     all.insert(all.end(), part.begin(), part.end());
   hard::KnobList knobs = fast_knobs();
   knobs.insert(knobs.end(), {{"device", "cpu"}, {"weights", "float32"}});

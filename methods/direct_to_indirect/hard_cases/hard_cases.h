@@ -13,5 +13,6 @@ hard::Cases glossy_cases();
 hard::Cases light_cases();
 hard::Cases view_cases();
 hard::Cases environment_cases();
+hard::Cases surface_cases();
 
 }  // namespace relight::direct_to_indirect
