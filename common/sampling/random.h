@@ -23,6 +23,17 @@ inline uint64_t random_bits(uint64_t seed, uint64_t stream, uint64_t index, uint
                       dimension);
 }
 
+// The same bits for many dimensions of one index.
+class RandomDimensions {
+ public:
+  RandomDimensions(uint64_t seed, uint64_t stream, uint64_t index)
+      : index_(hash_combine(hash_combine(mix64(seed + 0x632be59bd9b4e019ull), stream), index)) {}
+  uint64_t bits(uint64_t dimension) const { return hash_combine(index_, dimension); }
+
+ private:
+  uint64_t index_;
+};
+
 // In [0,1): 24 bits, so that the float can never round up to 1.
 inline float to_unit_float(uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
 

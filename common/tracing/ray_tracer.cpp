@@ -72,6 +72,7 @@ struct RayTracer::Embree {
   bool free_segment(const glm::vec3& a, const glm::vec3& b) const;
   bool occluded(const glm::vec3& origin, const glm::vec3& direction) const;
   uint32_t occluded16(const RayLog::Packet& packet) const;
+  uint32_t trace16(const int* valid, RTCRay16& rays, uint32_t active) const;
 };
 
 void RayTracer::Embree::build(const Scene& source) {
@@ -113,27 +114,37 @@ bool RayTracer::Embree::occluded(const glm::vec3& origin, const glm::vec3& direc
   return ray.tfar < 0.0f;  // Embree marks an occluded ray with tfar = -infinity
 }
 
+// A segment from origin to origin + direction, at place i of a packet.
+namespace {
+void set_segment(RTCRay16& rays, unsigned i, const glm::vec3& origin, const glm::vec3& direction) {
+  rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
+  rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
+  rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
+  rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
+}
+}  // namespace
+
 // Bits of the active segments that something blocks.
-uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
-  alignas(64) RTCRay16 rays;
-  alignas(64) int valid[16];
-  const Points16& origin = packet.origin;
-  for (unsigned i = 0; i < 16; ++i) {
-    valid[i] = (packet.active >> i) & 1u ? -1 : 0;
-    rays.org_x[i] = origin.x[i], rays.org_y[i] = origin.y[i], rays.org_z[i] = origin.z[i];
-    rays.dir_x[i] = packet.parallel ? packet.end.x : packet.end.x - origin.x[i];
-    rays.dir_y[i] = packet.parallel ? packet.end.y : packet.end.y - origin.y[i];
-    rays.dir_z[i] = packet.parallel ? packet.end.z : packet.end.z - origin.z[i];
-    rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
-    rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
-  }
+uint32_t RayTracer::Embree::trace16(const int* valid, RTCRay16& rays, uint32_t active) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded16(valid, scene, &context, &rays);
   uint32_t blocked = 0;
   for (unsigned i = 0; i < 16; ++i) blocked |= (rays.tfar[i] < 0.0f ? 1u : 0u) << i;
-  return blocked & packet.active;
+  return blocked & active;
+}
+
+uint32_t RayTracer::Embree::occluded16(const RayLog::Packet& packet) const {
+  alignas(64) RTCRay16 rays;
+  alignas(64) int valid[16];
+  const glm::vec3 end = packet.end;
+  for (unsigned i = 0; i < 16; ++i) {
+    valid[i] = (packet.active >> i) & 1u ? -1 : 0;
+    const glm::vec3 origin = packet.origin.get(i);
+    set_segment(rays, i, origin, packet.parallel ? end : end - origin);
+  }
+  return trace16(valid, rays, packet.active);
 }
 
 RayTracer::RayTracer(const Scene& scene) : scene_(scene), embree_(std::make_unique<Embree>()) {
@@ -182,20 +193,27 @@ bool RayTracer::visible_from_point(const glm::vec3& p, const glm::vec3& np, cons
 
 uint32_t RayTracer::visible16(const Points16& p, const glm::vec3& q, uint32_t active) const {
   if (!finite(q)) refuse_ray("end", q, q);
-  RayLog::Packet packet;
-  packet.end = q, packet.active = active;
+  alignas(64) RTCRay16 rays;
+  alignas(64) int valid[16];
   uint32_t not_finite = 0;
   for (unsigned i = 0; i < 16; ++i) {
     const bool on = (active >> i) & 1u;  // an inactive entry may hold anything
-    const float x = on ? p.x[i] : q.x, y = on ? p.y[i] : q.y, z = on ? p.z[i] : q.z;
-    packet.origin.x[i] = x, packet.origin.y[i] = y, packet.origin.z[i] = z;
+    valid[i] = on ? -1 : 0;
+    const glm::vec3 origin(on ? p.x[i] : q.x, on ? p.y[i] : q.y, on ? p.z[i] : q.z);
+    const glm::vec3 direction = q - origin;
+    set_segment(rays, i, origin, direction);
     // 0 x a difference is 0 only if point and difference are finite.
-    not_finite |= (q.x - x) * 0.0f + (q.y - y) * 0.0f + (q.z - z) * 0.0f == 0.0f ? 0u : 1u;
+    not_finite |= direction.x * 0.0f + direction.y * 0.0f + direction.z * 0.0f == 0.0f ? 0u : 1u;
   }
   for (unsigned i = 0; not_finite && i < 16; ++i)
     if (((active >> i) & 1u) && !finite(p.get(i) - q)) refuse_ray("end", p.get(i), q);
-  if (log_) log_->add(packet);
-  return active & ~embree_->occluded16(packet);
+  if (log_) {
+    RayLog::Packet packet;
+    packet.end = q, packet.active = active;
+    for (unsigned i = 0; i < 16; ++i) packet.origin.set(i, {rays.org_x[i], rays.org_y[i], rays.org_z[i]});
+    log_->add(packet);
+  }
+  return active & ~embree_->trace16(valid, rays, active);
 }
 
 uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/sampling/gather_cloud.h"
+#include "common/sampling/random.h"
 #include "common/tracing/ray_tracer.h"
 #include "methods/direct_to_indirect/final_gather.h"
 #include "methods/direct_to_indirect/glossy_lobe.h"
@@ -32,14 +33,15 @@ struct GatherCounts {
   }
 };
 
-// Values of the diffuse matrix, and of both. A walk of a tile without lobes carries the first kind.
+// Values of the diffuse matrix, and of both. A walk of a tile without lobes carries the first kind. Zero as
+// DiffuseLanes{}; without braces anything, because the walk makes four at each node, and fills them.
 struct DiffuseLanes {
   static constexpr bool lobes = false;
-  Lanes diffuse{};
+  Lanes diffuse;
 };
 struct LanePair {
   static constexpr bool lobes = true;
-  Lanes diffuse{}, glossy{};
+  Lanes diffuse, glossy;
 };
 
 class TileGather {
@@ -72,6 +74,9 @@ class TileGather {
   template <typename Value>
   Value seen_elements(size_t member, float factor, uint32_t mask);
   Lanes glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const;
+  // Gather samples of a cluster: each level has four times the clusters of the one above.
+  size_t cluster_size(size_t level) const { return cloud_.samples.size() >> (2 * level); }
+  void prefetch_children(size_t level, size_t index) const;
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
   bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
@@ -90,6 +95,7 @@ class TileGather {
   const NearField* near_field_;          // null: links only
   const GlossyGather* glossy_;           // null: no glossy matrix
   uint64_t tile_ = 0;
+  RandomDimensions random_{0, 0, 0};  // of the tile
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
   Points16 ray_start_;

@@ -68,7 +68,9 @@ bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const 
     const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
     close[i] = size2 > threshold * (wx * wx + wy * wy + wz * wz) ? 1 : 0;
   }
-  return (mask & to_mask(close)) != 0 || lobes_need_subdivision(cluster, mask & linked_lobes_);
+  if (mask & to_mask(close)) return true;
+  const uint32_t lobes = mask & linked_lobes_;
+  return lobes != 0 && lobes_need_subdivision(cluster, lobes);
 }
 
 // The same with the lobe (section 4.3: "force more subdivision around the peak of the lobe"): a cluster
