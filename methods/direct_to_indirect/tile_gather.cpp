@@ -43,6 +43,7 @@ void TileGather::gather(const std::array<const SurfaceSample*, lanes>& samples, 
     counts_.near_elements += static_cast<int64_t>(near_[i].size());
   }
   if (mask == 0) return;
+  bound_tile(mask);
   if (glossy_) start_glossy(samples, mask);
   if (linked_lobes_) {
     const auto scaling = visit<LanePair>(0, 0, mask);
@@ -81,10 +82,12 @@ Value TileGather::visit(size_t level, size_t index, uint32_t mask) {
   // The cell of a near sample may reach into the view where the sample itself is behind or faces away.
   const uint32_t near = with_near_members(level, index, mask);
   mask = in_front(cluster, mask);
-  if (mask) mask = not_facing_away(cluster, mask);
+  if ((mask | near) == 0) return {};
+  const SeenCluster view = seen(cluster);
+  if (mask) mask = not_facing_away(view, mask);
   mask |= near;
   if (mask == 0) return {};
-  if (!near && !needs_subdivision(cluster, mask)) return link<Value>(level, index, mask);
+  if (!near && !needs_subdivision(view, mask)) return link<Value>(level, index, mask);
 
   prefetch_children(level, index);
   std::array<Value, 4> child;

@@ -44,6 +44,24 @@ struct LanePair {
   Lanes diffuse, glossy;
 };
 
+// Of a tile's view samples: what decides many questions for all of them at once.
+struct TileBounds {
+  glm::vec3 centre{0.0f};
+  float radius = 0.0f;  // of a sphere around the positions
+  bool flat = false;    // all normals, shading and geometric, are `normal`
+  glm::vec3 normal{0.0f};
+  float lowest = 0.0f, highest = 0.0f;  // of dot(normal, position)
+  float rounding = 0.0f;                // what float sums of products of coordinates are wrong by, generously
+};
+
+// A cluster as the tile sees it.
+struct SeenCluster {
+  const Cluster& cluster;
+  glm::vec3 centre, half;  // of its box
+  float radius2;           // squared, of the sphere around the box
+  float distance;          // from the tile's centre to its
+};
+
 class TileGather {
  public:
   TileGather(const RayTracer& tracer, const GatherCloud& cloud, const GatherHierarchy& hierarchy,
@@ -77,9 +95,11 @@ class TileGather {
   // Gather samples of a cluster: each level has four times the clusters of the one above.
   size_t cluster_size(size_t level) const { return cloud_.samples.size() >> (2 * level); }
   void prefetch_children(size_t level, size_t index) const;
+  void bound_tile(uint32_t mask);
+  SeenCluster seen(const Cluster& cluster) const;
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
-  uint32_t not_facing_away(const Cluster& cluster, uint32_t mask) const;
-  bool needs_subdivision(const Cluster& cluster, uint32_t mask) const;
+  uint32_t not_facing_away(const SeenCluster& seen, uint32_t mask) const;
+  bool needs_subdivision(const SeenCluster& seen, uint32_t mask) const;
   bool lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const;
   uint32_t with_near_members(size_t level, size_t index, uint32_t mask) const;
   template <typename Value>
@@ -98,6 +118,7 @@ class TileGather {
   RandomDimensions random_{0, 0, 0};  // of the tile
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
+  TileBounds bounds_;
   Points16 ray_start_;
   std::array<std::vector<NearElement>, lanes> near_;  // by view sample
   uint32_t linked_lobes_ = 0;                         // lanes whose links carry glossy elements

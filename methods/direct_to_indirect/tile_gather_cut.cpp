@@ -1,5 +1,6 @@
 // Which clusters the walk of tile_gather.h enters, and which it takes as a whole: culling by planes and
-// normal cones, and the solid-angle heuristic.
+// normal cones, and the solid-angle heuristic. Each question is first asked of the tile's bounds, which
+// decide it for all 16 view samples in most cases, with the answer that each of them would give.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,8 +22,47 @@ struct BoxSupport {
 
 }  // namespace
 
+void TileGather::bound_tile(uint32_t mask) {
+  glm::vec3 lo(INFINITY), hi(-INFINITY);
+  bounds_.flat = true;
+  bool first = true;
+  for (size_t i = 0; i < lanes; ++i) {
+    if (!(mask >> i & 1u)) continue;
+    const glm::vec3 p(px_[i], py_[i], pz_[i]), s(sx_[i], sy_[i], sz_[i]), g(gx_[i], gy_[i], gz_[i]);
+    lo = glm::min(lo, p), hi = glm::max(hi, p);
+    if (first) bounds_.normal = s;
+    first = false;
+    bounds_.flat = bounds_.flat && s == bounds_.normal && g == bounds_.normal;
+  }
+  bounds_.centre = 0.5f * (lo + hi);
+  const Cluster& all = tree_.levels[0][0];
+  const auto largest = [](const glm::vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  };
+  bounds_.rounding = 1e-5f * std::max({largest(lo), largest(hi), largest(all.lo), largest(all.hi)});
+  bounds_.radius = 0.5f * glm::length(hi - lo) + bounds_.rounding;
+  bounds_.lowest = INFINITY, bounds_.highest = -INFINITY;
+  for (size_t i = 0; i < lanes; ++i) {
+    if (!(mask >> i & 1u)) continue;
+    const float height = glm::dot(bounds_.normal, glm::vec3(px_[i], py_[i], pz_[i]));
+    bounds_.lowest = std::min(bounds_.lowest, height), bounds_.highest = std::max(bounds_.highest, height);
+  }
+}
+
+SeenCluster TileGather::seen(const Cluster& cluster) const {
+  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
+  return {cluster, centre, half, glm::dot(half, half), glm::length(bounds_.centre - centre)};
+}
+
 // Lanes for which some of the cluster is above both the shading and the geometric plane of the view sample.
 uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
+  if (bounds_.flat) {
+    const glm::vec3 n = bounds_.normal;
+    const glm::vec3 top = glm::max(n * cluster.lo, n * cluster.hi);
+    const float highest = top.x + top.y + top.z;
+    if (highest - bounds_.highest > bounds_.rounding) return mask;
+    if (highest - bounds_.lowest < -bounds_.rounding) return 0;
+  }
   const BoxSupport support{cluster.lo, cluster.hi};
   std::array<uint32_t, lanes> above;
   for (size_t i = 0; i < lanes; ++i) {
@@ -37,10 +77,14 @@ uint32_t TileGather::in_front(const Cluster& cluster, uint32_t mask) const {
 // of the cluster, every member faces away if the angle between axis and direction to the view sample is at
 // least 90 + a + b, which must be below 180: a + b < 90. Both conditions times the distance d: with
 // sin b = radius / d one root a lane is left, and no division.
-uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) const {
+uint32_t TileGather::not_facing_away(const SeenCluster& seen, uint32_t mask) const {
+  const Cluster& cluster = seen.cluster;
   if (!(cluster.cone_cosine > 0.0f)) return mask;
-  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), half = 0.5f * (cluster.hi - cluster.lo);
-  const float radius2 = glm::dot(half, half), radius = std::sqrt(radius2), cos_a = cluster.cone_cosine;
+  // In front of the plane through the centre, across the axis: not even a cone of no width faces away.
+  const float towards_tile = glm::dot(cluster.cone_axis, bounds_.centre - seen.centre);
+  if (towards_tile - bounds_.radius > bounds_.rounding) return mask;
+  const glm::vec3 centre = seen.centre;
+  const float radius2 = seen.radius2, radius = std::sqrt(radius2), cos_a = cluster.cone_cosine;
   // Rounding of the bound normals may let a member lie a few ulps outside the cone.
   const float sin_a = std::sqrt(std::max(0.0f, 1.0f - cos_a * cos_a)) + 1e-4f;
   std::array<uint32_t, lanes> maybe;
@@ -57,19 +101,25 @@ uint32_t TileGather::not_facing_away(const Cluster& cluster, uint32_t mask) cons
 }
 
 // The solid-angle heuristic of section 4.3, for the closest active view sample.
-bool TileGather::needs_subdivision(const Cluster& cluster, uint32_t mask) const {
-  const glm::vec3 centre = 0.5f * (cluster.lo + cluster.hi), diagonal = cluster.hi - cluster.lo;
+bool TileGather::needs_subdivision(const SeenCluster& seen, uint32_t mask) const {
+  const Cluster& cluster = seen.cluster;
+  const glm::vec3 centre = seen.centre, diagonal = cluster.hi - cluster.lo;
   // Without a threshold a cluster is never linked as a whole, not even one whose members coincide: their
   // areas may differ.
   if (settings_.link_threshold <= 0.0f) return true;
   const float size2 = glm::dot(diagonal, diagonal), threshold = settings_.link_threshold;
+  const uint32_t lobes = mask & linked_lobes_;
+  const float nearest = seen.distance - bounds_.radius, farthest = seen.distance + bounds_.radius;
+  constexpr float sure = 1.0001f;  // beyond the rounding of a squared distance
+  if (size2 > sure * threshold * farthest * farthest) return true;
+  if (nearest > bounds_.rounding && sure * size2 < threshold * nearest * nearest)
+    return lobes != 0 && lobes_need_subdivision(cluster, lobes);
   std::array<uint32_t, lanes> close;
   for (size_t i = 0; i < lanes; ++i) {
     const float wx = px_[i] - centre.x, wy = py_[i] - centre.y, wz = pz_[i] - centre.z;
     close[i] = size2 > threshold * (wx * wx + wy * wy + wz * wz) ? 1 : 0;
   }
   if (mask & to_mask(close)) return true;
-  const uint32_t lobes = mask & linked_lobes_;
   return lobes != 0 && lobes_need_subdivision(cluster, lobes);
 }
 
