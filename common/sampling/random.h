@@ -17,13 +17,7 @@ inline uint64_t mix64(uint64_t z) {
 
 inline uint64_t hash_combine(uint64_t a, uint64_t b) { return mix64(a + 0x9e3779b97f4a7c15ull * (b + 1)); }
 
-// Random bits as a function of (seed, stream, index, dimension).
-inline uint64_t random_bits(uint64_t seed, uint64_t stream, uint64_t index, uint64_t dimension) {
-  return hash_combine(hash_combine(hash_combine(mix64(seed + 0x632be59bd9b4e019ull), stream), index),
-                      dimension);
-}
-
-// The same bits for many dimensions of one index.
+// Random bits as a function of (seed, stream, index, dimension), for many dimensions of one index.
 class RandomDimensions {
  public:
   RandomDimensions(uint64_t seed, uint64_t stream, uint64_t index)
@@ -33,6 +27,10 @@ class RandomDimensions {
  private:
   uint64_t index_;
 };
+
+inline uint64_t random_bits(uint64_t seed, uint64_t stream, uint64_t index, uint64_t dimension) {
+  return RandomDimensions(seed, stream, index).bits(dimension);
+}
 
 // In [0,1): 24 bits, so that the float can never round up to 1.
 inline float to_unit_float(uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }

@@ -16,12 +16,6 @@ constexpr int tile = 4;
 // from pixel to pixel.
 constexpr float largest_normal_difference2 = 0.02f;
 
-float pixel_width(const View& view, const SurfaceSample& sample) {
-  const float pixel_angle =
-      2.0f * std::tan(glm::radians(view.camera.fov_y_degrees) * 0.5f) / static_cast<float>(view.height);
-  return pixel_angle * glm::length(sample.position - view.camera.eye);
-}
-
 bool matches(const SurfaceSample& sample, const SurfaceSample& pixel, float width) {
   const glm::vec3 n = sample.shading_normal - pixel.shading_normal;
   return glm::dot(n, n) <= largest_normal_difference2 &&
@@ -35,8 +29,8 @@ std::vector<uint32_t> unmatched(const DeepFrameBuffer& buffer, const std::vector
   tbb::parallel_for(size_t{0}, closest.size(), [&](size_t i) {
     const SurfaceSample& s = buffer.direct[i];
     if (s.valid)
-      alone[i] =
-          closest[i] == no_sample || !matches(s, buffer.indirect[closest[i]], pixel_width(buffer.view, s));
+      alone[i] = closest[i] == no_sample ||
+                 !matches(s, buffer.indirect[closest[i]], pixel_footprint(buffer.view, s));
   });
   std::vector<uint32_t> out;
   for (int top = 0; top < rows; top += 2 * tile)

@@ -17,6 +17,9 @@ namespace relight {
 // a value of their own for those that match no pixel around them; `none`, the exact twin, one value each.
 enum class Upsampling { closest, edges, none };
 
+// Width of a pixel at the sample's distance from the eye, across the direction of view.
+float pixel_footprint(const View& view, const SurfaceSample& sample);
+
 // For each of the 2w x 2h sub-samples: index of the view sample whose indirect value it takes; 0xffffffff
 // where the sub-sample hit nothing, or all 3x3 view samples did. "Closest" has the form of equation 9:
 // |p-p'|^2 / (20 f)^2 + |n-n'|^2 with shading normals and f the width of a pixel at the sample's distance;

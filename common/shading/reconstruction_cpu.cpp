@@ -26,9 +26,7 @@ float dissimilarity(const SurfaceSample& a, const SurfaceSample& b, float positi
 
 // K / d of equation 9 for a sample: 1 / (20 footprints of its pixel).
 float position_scale(const View& view, const SurfaceSample& sample) {
-  const float pixel_angle =
-      2.0f * std::tan(glm::radians(view.camera.fov_y_degrees) * 0.5f) / static_cast<float>(view.height);
-  const float footprint = pixel_angle * glm::length(sample.position - view.camera.eye);
+  const float footprint = pixel_footprint(view, sample);
   return footprint > 0.0f ? 1.0f / (footprints_per_normal * footprint) : 0.0f;
 }
 
@@ -49,6 +47,12 @@ glm::vec3 filtered(const std::vector<glm::vec3>& values, size_t top, size_t row)
 }
 
 }  // namespace
+
+float pixel_footprint(const View& view, const SurfaceSample& sample) {
+  const float pixel_angle =
+      2.0f * std::tan(glm::radians(view.camera.fov_y_degrees) * 0.5f) / static_cast<float>(view.height);
+  return pixel_angle * glm::length(sample.position - view.camera.eye);
+}
 
 std::vector<uint32_t> closest_view_samples(const DeepFrameBuffer& buffer) {
   const int width = buffer.view.width, height = buffer.view.height;

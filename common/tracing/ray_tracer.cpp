@@ -53,6 +53,14 @@ float side(const glm::vec3& n, const glm::vec3& from, const glm::vec3& to) {
   return glm::dot(n, to - from) < 0.0f ? -1.0f : 1.0f;
 }
 
+// A segment from origin to origin + direction, at place i of a packet.
+void set_segment(RTCRay16& rays, unsigned i, const glm::vec3& origin, const glm::vec3& direction) {
+  rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
+  rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
+  rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
+  rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
+}
+
 }  // namespace
 
 struct RayTracer::Embree {
@@ -113,16 +121,6 @@ bool RayTracer::Embree::occluded(const glm::vec3& origin, const glm::vec3& direc
   rtcOccluded1(scene, &context, &ray);
   return ray.tfar < 0.0f;  // Embree marks an occluded ray with tfar = -infinity
 }
-
-// A segment from origin to origin + direction, at place i of a packet.
-namespace {
-void set_segment(RTCRay16& rays, unsigned i, const glm::vec3& origin, const glm::vec3& direction) {
-  rays.org_x[i] = origin.x, rays.org_y[i] = origin.y, rays.org_z[i] = origin.z;
-  rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
-  rays.tnear[i] = 0.0f, rays.tfar[i] = 1.0f;
-  rays.time[i] = 0.0f, rays.mask[i] = 0xffffffffu, rays.id[i] = 0, rays.flags[i] = 0;
-}
-}  // namespace
 
 // Bits of the active segments that something blocks.
 uint32_t RayTracer::Embree::trace16(const int* valid, RTCRay16& rays, uint32_t active) const {

@@ -83,13 +83,7 @@ Figures albedos_zero_and_one() {
   const LightingState lighting = tiny::lighting({tiny::omni({0.3f, 0.6f, 0.4f})});
   Figures figures;
   for (const char* kind : {"photons", "transfer"}) {
-    const Relit relit = bench.relight({{"device", "cpu"},
-                                       {"weights", "float32"},
-                                       {"bounces", "4"},
-                                       {"multi_bounce", kind},
-                                       {"photons", "20000"},
-                                       {"photon_neighbours", "50"}},
-                                      lighting);
+    const Relit relit = bench.relight(four_bounces(kind), lighting);
     add_worst(figures, non_finite_pixels({&relit.total}));
     add_worst(figures, at_most("indirect over direct light", norm(relit.indirect) / norm(relit.direct), 4.0,
                                "each of four bounces brings less than the light itself"));
