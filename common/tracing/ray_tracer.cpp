@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/run/error.h"
+#include "common/tracing/segment_rays.h"
 
 namespace relight {
 
@@ -219,6 +220,31 @@ uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t a
   for (unsigned i = 0; i < 16; ++i)
     if ((active >> i) & 1u) points.set(i, p[i]);
   return visible16(points, q, active);
+}
+
+uint32_t RayTracer::visible16(SegmentFan& fan, const glm::vec3& q, uint32_t active) const {
+  RTCRay16& rays = fan.rays_->packet;
+  int* valid = fan.rays_->valid;
+  uint32_t not_finite = 0;
+  for (unsigned i = 0; i < 16; ++i) {
+    const float x = q.x - rays.org_x[i], y = q.y - rays.org_y[i], z = q.z - rays.org_z[i];
+    rays.dir_x[i] = x, rays.dir_y[i] = y, rays.dir_z[i] = z;
+    rays.tfar[i] = 1.0f;
+    valid[i] = -static_cast<int>((active >> i) & 1u);
+    // The points are finite: 0 x a difference is 0 only if q and the difference are.
+    not_finite |= x * 0.0f + y * 0.0f + z * 0.0f == 0.0f ? 0u : 1u;
+  }
+  if (not_finite) refuse_ray("end", {rays.org_x[0], rays.org_y[0], rays.org_z[0]}, q);
+  if (log_) log_fan(fan, q, active);
+  return active & ~embree_->trace16(valid, rays, active);
+}
+
+void RayTracer::log_fan(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const {
+  const RTCRay16& rays = fan.rays_->packet;
+  RayLog::Packet packet;
+  packet.end = q, packet.active = active;
+  for (unsigned i = 0; i < 16; ++i) packet.origin.set(i, {rays.org_x[i], rays.org_y[i], rays.org_z[i]});
+  log_->add(packet);
 }
 
 uint32_t RayTracer::visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const {

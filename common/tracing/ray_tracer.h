@@ -7,6 +7,7 @@
 #include "common/sampling/surface_sample.h"
 #include "common/scene/scene.h"
 #include "common/tracing/ray_log.h"
+#include "common/tracing/segment_fan.h"
 
 namespace relight {
 
@@ -46,6 +47,8 @@ class RayTracer {
   // Returns the mask of segments that are free. Positions must already be offset (see offset_point).
   uint32_t visible16(const Points16& p, const glm::vec3& q, uint32_t active) const;
   uint32_t visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const;
+  // The same for many ends q, one after another: the fan keeps the points. One thread a fan.
+  uint32_t visible16(SegmentFan& fan, const glm::vec3& q, uint32_t active) const;
   // The same for 16 parallel segments, from p[i] to p[i] + v.
   uint32_t visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const;
 
@@ -61,6 +64,8 @@ class RayTracer {
   RayCounts replay(const RayLog::Thread& log) const;
 
  private:
+  void log_fan(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const;
+
   const Scene& scene_;
   RayLog* log_ = nullptr;
   float offset_ = 0.0f;

@@ -28,6 +28,10 @@ void cut(std::vector<Candidate>& candidates, size_t limit) {
   candidates.resize(limit);
 }
 
+float lightest(const std::vector<Candidate>& candidates) {
+  return std::ranges::min_element(candidates, {}, &Candidate::weight)->weight;
+}
+
 // support^exponent of the coefficients by level of the tree; that of the root is every sample.
 std::array<float, 17> weights_of_levels(uint32_t columns, float exponent) {
   std::array<float, 17> weights{};
@@ -57,15 +61,15 @@ size_t count_for_energy(std::vector<Candidate>& candidates, double energy) {
   return count;
 }
 
-// Most coefficients are lighter than `limit` others met before: they only cost a comparison, 16 lanes at a
-// time.
-void select_largest(const std::vector<LaneCoefficient>& coefficients, float support_exponent,
-                    uint32_t columns, const Lanes& row_factor, size_t limit, LaneSelection& out) {
+namespace {
+
+// One pass over the coefficients. `least`, by lane: nothing lighter is looked at. Most coefficients are
+// lighter than `limit` others met before: they only cost a comparison, 16 lanes at a time.
+void collect(const std::vector<LaneCoefficient>& coefficients, const std::array<float, 17>& level_weight,
+             const Lanes& row_factor, size_t limit, Lanes least, LaneSelection& out) {
   out.count.fill(0), out.energy.fill(0.0);
   for (std::vector<Candidate>& c : out.largest) c.clear();
-  const std::array<float, 17> level_weight = weights_of_levels(columns, support_exponent);
   const size_t room = 2 * limit + 64;
-  Lanes least{};  // no lighter coefficient is among the largest
   // Backwards: a depth-first walk leaves the coarse levels last, and they are the heaviest by area.
   for (const LaneCoefficient& c : std::views::reverse(coefficients)) {
     const float area = level_weight[level_of(c.index)];
@@ -88,12 +92,30 @@ void select_largest(const std::vector<LaneCoefficient>& coefficients, float supp
       largest.push_back({weight[i], {c.index, c.value[i]}});
       if (largest.size() < room) continue;
       cut(largest, limit);
-      least[i] = std::min_element(largest.begin(), largest.end(), [](const Candidate& a, const Candidate& b) {
-                   return a.weight < b.weight;
-                 })->weight;
+      least[i] = lightest(largest);
     }
   }
   for (std::vector<Candidate>& largest : out.largest) cut(largest, limit);
+}
+
+// No lane has fewer than it should because of the weight that the pass began with.
+bool complete(const LaneSelection& selection, size_t limit) {
+  for (size_t i = 0; i < lanes; ++i)
+    if (selection.largest[i].size() < std::min(limit, static_cast<size_t>(selection.count[i]))) return false;
+  return true;
+}
+
+}  // namespace
+
+// Neighbouring tiles have similar rows. A pass that begins with half of the weight at which the last tile was
+// cut meets little that it drops again; where it finds too few, it begins anew from zero.
+void select_largest(const std::vector<LaneCoefficient>& coefficients, float support_exponent,
+                    uint32_t columns, const Lanes& row_factor, size_t limit, LaneSelection& out) {
+  const std::array<float, 17> level_weight = weights_of_levels(columns, support_exponent);
+  collect(coefficients, level_weight, row_factor, limit, out.guess, out);
+  if (!complete(out, limit)) collect(coefficients, level_weight, row_factor, limit, Lanes{}, out);
+  for (size_t i = 0; i < lanes; ++i)
+    out.guess[i] = limit > 0 && out.largest[i].size() == limit ? 0.5f * lightest(out.largest[i]) : 0.0f;
 }
 
 void keep_largest(std::vector<Candidate>& candidates, size_t limit) {

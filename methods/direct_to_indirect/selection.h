@@ -21,6 +21,9 @@ struct LaneSelection {
   std::array<std::vector<Candidate>, lanes> largest;  // in no particular order
   std::array<int64_t, lanes> count{};                 // coefficients that are not zero
   std::array<double, lanes> energy{};                 // sum of their squares
+  // A guess at the weight of the lightest of the next tile's largest: only how long the selection takes
+  // depends on it.
+  Lanes guess{};
 };
 
 // Fills `out` with the `limit` coefficients of each lane that have the largest weight |c| x
