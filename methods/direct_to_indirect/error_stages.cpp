@@ -110,12 +110,16 @@ ErrorStage multi_bounce(const KnobValues& knobs) {
 }
 
 ErrorStage link_members(const KnobValues& knobs) {
-  return {
-      "link members",
-      "A link takes the element of one random member of its cluster; twin: the mean over all members, each "
-      "with its own visibility.",
-      {{"link_members", "all"}},
-      knobs.choice("link_members") != "all" && knobs.real("link_threshold") > 0.0};
+  const std::string& members = knobs.choice("link_members");
+  const std::string taken =
+      fmt::format("{} random member{} of its cluster", members, members == "one" ? "" : "s");
+  return {"link members",
+          fmt::format("A link takes {}; twin: the mean over all members, each with its own visibility.",
+                      knobs.choice("link_element") == "mean"
+                          ? fmt::format("the mean element of its cluster and the visibility of {}", taken)
+                          : fmt::format("the element of {}", taken)),
+          {{"link_members", "all"}, {"link_element", "member"}},
+          (members != "all" || knobs.choice("link_element") == "mean") && knobs.real("link_threshold") > 0.0};
 }
 
 ErrorStage links(const KnobValues& knobs) {

@@ -39,8 +39,9 @@ enum class MatrixPart { diffuse, glossy };
 
 struct FinalGatherSettings {
   float link_threshold =
-      0.01f;                 // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
-  bool all_members = false;  // a link takes the mean over its cluster's members instead of one of them
+      0.01f;             // subdivide while (cluster diagonal / distance)^2 > this; 0: link every sample
+  int link_members = 1;  // random members of its cluster that a link takes the mean over; 0: all of them
+  bool mean_elements = false;  // of the members a link takes visibility alone, and the cluster's mean element
   float form_factor_clamp = 0.1f;  // largest element of a link
   bool disc_elements = false;      // links are bounded as discs, cos cos A / (pi r^2 + A), and not clamped
   int coefficients = 100;          // kept a row, or on average a row with shared_budget

@@ -137,6 +137,30 @@ Cluster bound(std::span<const SurfaceSample> members) {
   return c;
 }
 
+GatherPoint mean(std::span<const GatherPoint> children) {
+  double area = 0.0;
+  glm::dvec3 position(0.0), normal(0.0);
+  for (const GatherPoint& c : children) {
+    const auto weight = static_cast<double>(c.area);
+    area += weight;
+    position += weight * glm::dvec3(c.position), normal += weight * glm::dvec3(c.normal);
+  }
+  if (!(area > 0.0)) return {children[0].position, 0.0f, children[0].normal};
+  return {glm::vec3(position / area), static_cast<float>(area / static_cast<double>(children.size())),
+          glm::vec3(normal / area)};
+}
+
+std::vector<std::vector<GatherPoint>> means_of_clusters(const GatherHierarchy& tree) {
+  std::vector<std::vector<GatherPoint>> means(tree.levels.size() - 1);
+  const std::vector<GatherPoint>* below = &tree.points;
+  for (size_t level = means.size(); level-- > 0; below = &means[level]) {
+    means[level].resize(below->size() / 4);
+    for (size_t i = 0; i < means[level].size(); ++i)
+      means[level][i] = mean(std::span(*below).subspan(4 * i, 4));
+  }
+  return means;
+}
+
 }  // namespace
 
 void order_gather_cloud(GatherCloud& cloud, float k, float scene_diagonal) {
@@ -172,6 +196,7 @@ GatherHierarchy build_hierarchy(const GatherCloud& ordered_cloud) {
     });
     tree.levels.push_back(std::move(level));
   }
+  tree.means = means_of_clusters(tree);
   return tree;
 }
 

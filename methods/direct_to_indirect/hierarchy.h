@@ -20,11 +20,13 @@ struct Cluster {
   float cone_cosine;    // cosine of the cone's half-angle; -1 if the members' mean normal is zero
 };
 
-// What a link asks of a gather sample, in a quarter of the sample's bytes: links read random members.
+// What a link asks of a gather sample, in a quarter of the sample's bytes: links read random members. Also
+// the mean of a cluster's members: the mean of their areas, and weighted by area of positions and normals, so
+// that its element of the matrix, far away, is the mean of theirs.
 struct GatherPoint {
   glm::vec3 position;
   float area;        // represented
-  glm::vec3 normal;  // geometric
+  glm::vec3 normal;  // geometric; shorter than one in a mean of normals that differ
   float padding = 0.0f;
 };
 
@@ -32,7 +34,8 @@ struct GatherHierarchy {
   // levels[0] = {root}, levels[l][i] = the cluster of samples [i, i+1) x 4^(n-l); the last level has single
   // samples.
   std::vector<std::vector<Cluster>> levels;
-  std::vector<GatherPoint> points;  // in tree order
+  std::vector<GatherPoint> points;              // in tree order
+  std::vector<std::vector<GatherPoint>> means;  // like levels, but for the last, which is `points`
 };
 
 // Reorders the cloud into tree order. k: weight of positions in d(s,c) = k^2 |p_s-p_c|^2 + d^2 |n_s-n_c|^2

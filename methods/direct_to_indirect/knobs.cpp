@@ -20,8 +20,12 @@ KnobTable knob_table() {
       {"link_threshold", real, precompute, "0.02", 0, 100, {}, "final_gather",
        "A cluster is subdivided while (bounding-box diagonal / distance)^2 exceeds this; 0 links every sample (0.02: some 4,000 rays a view sample, as in the paper).",
        tuned_by_factor(2, 0.005, 2, false)},
-      {"link_members", choice, precompute, "one", 0, 0, {"one", "all"}, "final_gather",
-       "A link to a cluster takes the element of one random member (paper), or the mean over all of them, each with its own visibility (as many rays as linking every sample)."},
+      {"link_members", choice, precompute, "one", 0, 0, {"one", "two", "four", "all"}, "final_gather",
+       "A link to a cluster takes the element of one random member (paper), or the mean over several or all of them, each with its own visibility (all: as many rays as linking every sample).",
+       tuned_by_choice({"one", "two", "four"})},
+      {"link_element", choice, precompute, "member", 0, 0, {"member", "mean"}, "final_gather",
+       "A link takes visibility and element of the random members (paper), or their visibility alone and the mean element of its cluster, where all of that faces the view samples.",
+       tuned_by_choice({"member", "mean"})},
       {"form_factor_clamp", real, precompute, "0.1", 0, 1, {}, "final_gather",
        "Largest value of a final-gather element, against 1/r^2 in corners (paper: 0.1)."},
       {"near_field", choice, precompute, "clamp", 0, 0, {"clamp", "disc", "cell_average", "hemisphere"}, "near_field",
@@ -120,13 +124,15 @@ std::vector<KnobPreset> knob_presets() {
       {"best",
        "The paper's number of coefficients, shared by the 4x4 rows of a tile (view_basis.h) and refitted to "
        "random lights (light_refit.h); direct light averaged over four points of a gather sample's cell "
-       "(light_points.h); rays instead of the clamp between close points (near_field.h) and along glossy "
+       "(light_points.h); links take the mean element of their cluster "
+       "(tile_gather.h); rays instead of the clamp between close points (near_field.h) and along glossy "
        "lobes (glossy_rays.h); rows of their own for sub-pixels that match no pixel (indirect_grid.h); "
        "16-bit "
        "weights by rows, which such a basis suits.",
        {{"light_points", "4"},
         {"view_basis", "haar"},
         {"support_exponent", "0.6"},
+        {"link_element", "mean"},
         {"refit_lights", "512"},
         {"near_field", "hemisphere"},
         {"glossy_gather", "rays"},

@@ -29,13 +29,19 @@ int64_t kept_coefficients(const KnobValues& knobs, const std::string& knob) {
   return kept > 0 ? kept : knobs.integer("gather_samples");
 }
 
+int link_members(const KnobValues& knobs) {
+  const std::string& members = knobs.choice("link_members");
+  return members == "one" ? 1 : members == "two" ? 2 : members == "four" ? 4 : 0;
+}
+
 FinalGatherSettings final_gather_settings(const PrepareContext& context) {
   const KnobValues& knobs = context.knobs;
   FinalGatherSettings settings;
   settings.link_threshold = static_cast<float>(knobs.real("link_threshold"));
   settings.form_factor_clamp = static_cast<float>(knobs.real("form_factor_clamp"));
   settings.disc_elements = knobs.choice("near_field") == "disc";
-  settings.all_members = knobs.choice("link_members") == "all";
+  settings.link_members = link_members(knobs);
+  settings.mean_elements = knobs.choice("link_element") == "mean";
   settings.coefficients = static_cast<int>(kept_coefficients(knobs, "coefficients"));
   settings.glossy_coefficients = static_cast<int>(kept_coefficients(knobs, "glossy_coefficients"));
   settings.energy_fraction = knobs.real("energy_fraction");
@@ -101,6 +107,11 @@ void check(const KnobValues& knobs) {
           "direct_to_indirect.refit_lights: {} with {}=0: rows that keep every coefficient have nothing to "
           "refit; valid: 0",
           knobs.integer("refit_lights"), kept);
+  if (knobs.choice("link_element") == "mean" && knobs.choice("column_scaling") != "none")
+    fail(
+        "direct_to_indirect.link_element: 'mean' with column_scaling={}, whose scaled elements have no mean; "
+        "valid: member",
+        knobs.choice("column_scaling"));
   if (knobs.choice("view_basis") != "haar") return;
   if (knobs.choice("row_budget") != "fixed")
     fail(

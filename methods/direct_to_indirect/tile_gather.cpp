@@ -87,7 +87,10 @@ Value TileGather::visit(size_t level, size_t index, uint32_t mask) {
   if (mask) mask = not_facing_away(view, mask);
   mask |= near;
   if (mask == 0) return {};
-  if (!near && !needs_subdivision(view, mask)) return link<Value>(level, index, mask);
+  if (!near && !needs_subdivision(view, mask)) {
+    const bool by_mean = settings_.mean_elements && faces_as_a_whole(view);
+    return link<Value>(level, index, mask, by_mean);
+  }
 
   prefetch_children(level, index);
   std::array<Value, 4> child;
@@ -111,13 +114,16 @@ Value TileGather::visit(size_t level, size_t index, uint32_t mask) {
 // where a child is culled or entered; the rays of its siblings are far longer than the wait.
 void TileGather::prefetch_children(size_t level, size_t index) const {
   const size_t below = level + 1, first = 4 * index;
-  const size_t size = cluster_size(below);
+  const size_t size = cluster_size(below), members = link_members(size);
   const char* clusters = reinterpret_cast<const char*>(&tree_.levels[below][first]);
   for (size_t byte = 0; byte < 4 * sizeof(Cluster); byte += 64) __builtin_prefetch(clusters + byte);
   for (size_t c = 0; c < 4; ++c) {
-    const size_t member = (first + c) * size + (size > 1 ? random_member(below, first + c, size) : 0);
-    __builtin_prefetch(&tree_.points[member]);
+    for (size_t k = 0; k < std::min(members, size_t{4}); ++k)
+      __builtin_prefetch(&tree_.points[link_member(below, first + c, size, members, k)]);
   }
+  if (!settings_.mean_elements || below == tree_.means.size()) return;
+  const char* means = reinterpret_cast<const char*>(&tree_.means[below][first]);
+  for (size_t byte = 0; byte < 4 * sizeof(GatherPoint); byte += 64) __builtin_prefetch(means + byte);
 }
 
 // Lanes that have near samples in the cluster.
@@ -139,16 +145,11 @@ template <typename Value>
 Value TileGather::leaf(size_t level, size_t index, uint32_t mask) {
   const uint32_t near = with_near_members(level, index, mask);
   const uint32_t linked = mask & (~near | linked_lobes_);
-  Value value = linked ? link<Value>(level, index, linked) : Value{};
+  Value value = linked ? link<Value>(level, index, linked, false) : Value{};
   const float factor = column_scale_.empty() ? 1.0f : 1.0f / column_scale_[index];
   for (size_t i = 0; i < lanes; ++i)
     if (near >> i & 1u) value.diffuse[i] = find_near(near_[i], index)->value * factor;
   return value;
-}
-
-// size: a power of two, so that masking is the remainder.
-size_t TileGather::random_member(size_t level, size_t index, size_t size) const {
-  return static_cast<size_t>(random_.bits((static_cast<uint64_t>(level) << 32) | index)) & (size - 1);
 }
 
 // Elements of the matrix without visibility, and the lanes where they are positive. One loop without
@@ -190,15 +191,17 @@ Lanes TileGather::glossy_elements(const glm::vec3& member, const Lanes& bounded,
   return value;
 }
 
-// factor x F / w of one gather sample for each lane, 0 where it is not seen.
+// factor x F / w of a point for each lane, 0 where `member`, the point or one that it is the mean of, is not
+// seen.
 template <typename Value>
-Value TileGather::seen_elements(size_t member, float factor, uint32_t mask) {
+Value TileGather::seen_elements(const GatherPoint& point, size_t member, float factor, uint32_t mask) {
   const GatherPoint& g = tree_.points[member];
   Value value;
   if constexpr (Value::lobes) value.glossy = {};
-  mask &= elements(g, value.diffuse);
+  mask &= elements(point, value.diffuse);
   if constexpr (Value::lobes)
-    if (linked_lobes_ & mask) value.glossy = glossy_elements(g.position, value.diffuse, linked_lobes_ & mask);
+    if (linked_lobes_ & mask)
+      value.glossy = glossy_elements(point.position, value.diffuse, linked_lobes_ & mask);
   counts_.rays += std::popcount(mask);
   const uint32_t visible =
       mask ? tracer_.visible16(ray_start_, tracer_.offset_point(g.position, g.normal), mask) : 0;
@@ -212,29 +215,30 @@ Value TileGather::seen_elements(size_t member, float factor, uint32_t mask) {
 }
 
 // The scaling coefficient of `size` equal values F is F sqrt(size), and the details inside the cluster are
-// zero. F is the element of one random member, which is taken for all of them, or with all_members their
-// mean. The scaled element F / w of one member stands for all of them, too.
+// zero. F is the mean over the link's members, of their elements with visibility, or by_mean: of their
+// visibility times the mean of all elements without. The scaled element F / w of a member stands for all of
+// them, too.
 template <typename Value>
-Value TileGather::link(size_t level, size_t index, uint32_t mask) {
-  const size_t size = cluster_size(level);
-  const float root = std::sqrt(static_cast<float>(size));
-  if (settings_.all_members && size > 1) {
-    counts_.links += std::popcount(mask);
-    Value sum{};
-    for (size_t member = index * size; member < (index + 1) * size; ++member) {
-      const auto value = seen_elements<Value>(member, 1.0f / root, mask);
-      for (size_t i = 0; i < lanes; ++i) {
-        sum.diffuse[i] += value.diffuse[i];
-        if constexpr (Value::lobes) sum.glossy[i] += value.glossy[i];
-      }
-    }
-    return sum;
-  }
+Value TileGather::link(size_t level, size_t index, uint32_t mask, bool by_mean) {
+  const size_t size = cluster_size(level), members = link_members(size);
+  const float factor = std::sqrt(static_cast<float>(size)) / static_cast<float>(members);
   const int64_t rays = counts_.rays;
-  const auto value =
-      seen_elements<Value>(index * size + (size > 1 ? random_member(level, index, size) : 0), root, mask);
-  counts_.links += counts_.rays - rays;
-  return value;
+  Value sum;
+  for (size_t k = 0; k < members; ++k) {
+    const size_t member = link_member(level, index, size, members, k);
+    const GatherPoint& point = by_mean ? tree_.means[level][index] : tree_.points[member];
+    const auto value = seen_elements<Value>(point, member, factor, mask);
+    if (k == 0) {
+      sum = value;
+      continue;
+    }
+    for (size_t i = 0; i < lanes; ++i) {
+      sum.diffuse[i] += value.diffuse[i];
+      if constexpr (Value::lobes) sum.glossy[i] += value.glossy[i];
+    }
+  }
+  counts_.links += members == 1 ? counts_.rays - rays : std::popcount(mask);
+  return sum;
 }
 
 }  // namespace relight::direct_to_indirect

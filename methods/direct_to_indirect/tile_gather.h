@@ -3,6 +3,7 @@
 // visibility ray, and clusters towards which a lobe is large are subdivided further (section 4.3).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -88,9 +89,9 @@ class TileGather {
   template <typename Value>
   Value visit(size_t level, size_t index, uint32_t mask);
   template <typename Value>
-  Value link(size_t level, size_t index, uint32_t mask);
+  Value link(size_t level, size_t index, uint32_t mask, bool by_mean);
   template <typename Value>
-  Value seen_elements(size_t member, float factor, uint32_t mask);
+  Value seen_elements(const GatherPoint& point, size_t member, float factor, uint32_t mask);
   Lanes glossy_elements(const glm::vec3& member, const Lanes& bounded, uint32_t mask) const;
   // Gather samples of a cluster: each level has four times the clusters of the one above.
   size_t cluster_size(size_t level) const { return cloud_.samples.size() >> (2 * level); }
@@ -99,12 +100,23 @@ class TileGather {
   SeenCluster seen(const Cluster& cluster) const;
   uint32_t in_front(const Cluster& cluster, uint32_t mask) const;
   uint32_t not_facing_away(const SeenCluster& seen, uint32_t mask) const;
+  bool faces_as_a_whole(const SeenCluster& seen) const;
   bool needs_subdivision(const SeenCluster& seen, uint32_t mask) const;
   bool lobes_need_subdivision(const Cluster& cluster, uint32_t mask) const;
   uint32_t with_near_members(size_t level, size_t index, uint32_t mask) const;
   template <typename Value>
   Value leaf(size_t level, size_t index, uint32_t mask);
-  size_t random_member(size_t level, size_t index, size_t size) const;
+  // Members that a link to a cluster of `size` takes.
+  size_t link_members(size_t size) const {
+    return settings_.link_members > 0 ? std::min(size, static_cast<size_t>(settings_.link_members)) : size;
+  }
+  // The k-th of `members`: one at random of each of as many equal runs of the cluster. Sizes are powers of
+  // two, so that masking is the remainder.
+  size_t link_member(size_t level, size_t index, size_t size, size_t members, size_t k) const {
+    const size_t run = members == 1 ? size : size / members, first = index * size + k * run;
+    const uint64_t number = (static_cast<uint64_t>(k) << 40) | (static_cast<uint64_t>(level) << 32) | index;
+    return run == 1 ? first : first + (static_cast<size_t>(random_.bits(number)) & (run - 1));
+  }
   uint32_t elements(const GatherPoint& g, Lanes& value) const;
 
   const RayTracer& tracer_;
@@ -119,7 +131,7 @@ class TileGather {
   // Structure of arrays, so that loops over lanes vectorise.
   alignas(64) Lanes px_{}, py_{}, pz_{}, sx_{}, sy_{}, sz_{}, gx_{}, gy_{}, gz_{};
   TileBounds bounds_;
-  Points16 ray_start_;
+  SegmentFan ray_start_;
   std::array<std::vector<NearElement>, lanes> near_;  // by view sample
   uint32_t linked_lobes_ = 0;                         // lanes whose links carry glossy elements
   std::array<GlossyLobe, lanes> lobe_;

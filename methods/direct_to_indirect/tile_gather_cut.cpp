@@ -100,6 +100,22 @@ uint32_t TileGather::not_facing_away(const SeenCluster& seen, uint32_t mask) con
   return mask & to_mask(maybe);
 }
 
+// That every member of the cluster faces every view sample of the tile, for certain. Then the elements of all
+// members are products of cosines of one sign, and their mean is that of the mean point. A member below a
+// view sample's plane takes a little from the mean where alone it would count as zero: only next to the
+// horizon, where cosines are small.
+bool TileGather::faces_as_a_whole(const SeenCluster& seen) const {
+  const Cluster& cluster = seen.cluster;
+  const float cos_a = cluster.cone_cosine;
+  if (!(cos_a > 0.0f)) return false;
+  // The least of dot(normal, direction to the tile's centre) over the cone of normals, times the distance,
+  // must exceed what positions in the cluster and in the tile can change of it.
+  const float sin_a = std::sqrt(std::max(0.0f, 1.0f - cos_a * cos_a)) + 1e-4f;
+  const float d_cos_t = glm::dot(cluster.cone_axis, bounds_.centre - seen.centre);
+  const float d_sin_t = std::sqrt(std::max(0.0f, seen.distance * seen.distance - d_cos_t * d_cos_t));
+  return d_cos_t * cos_a - d_sin_t * sin_a > bounds_.radius + std::sqrt(seen.radius2) + bounds_.rounding;
+}
+
 // The solid-angle heuristic of section 4.3, for the closest active view sample.
 bool TileGather::needs_subdivision(const SeenCluster& seen, uint32_t mask) const {
   const Cluster& cluster = seen.cluster;

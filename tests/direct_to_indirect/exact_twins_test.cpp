@@ -85,7 +85,7 @@ TEST(ExactTwins, LinksToAllMembersKeepTheSumOfEveryRow) {
   const SparseRows exact = s.final_gather(settings);
   settings.link_threshold = 0.5f;
   const SparseRows one = s.final_gather(settings);
-  settings.all_members = true;
+  settings.link_members = 0;
   const SparseRows all = s.final_gather(settings);
   double sampled = 0.0;
   for (size_t i = 0; i < s.buffer.indirect.size(); ++i) {

@@ -109,5 +109,35 @@ TEST(Hierarchy, BoxesAndConesHoldTheirMembers) {
     }
 }
 
+// Areas are 0 to 1,023, one of them zero. Red if a mean forgets the weights (tried), or takes its members
+// from another cluster (tried: the first four for all).
+TEST(Hierarchy, MeansAreWeightedByArea) {
+  std::vector<glm::vec3> p, n;
+  for (uint64_t i = 0; i < 1024; ++i) {
+    p.emplace_back(random_float(6, 0, i, 0), random_float(6, 0, i, 1), random_float(6, 0, i, 2));
+    n.push_back(sample_cosine(glm::vec3(0, 1, 0), {random_float(6, 0, i, 3), random_float(6, 0, i, 4)}));
+  }
+  GatherCloud cloud = cloud_of(p, n);
+  order_gather_cloud(cloud, 30.0f, 1.7f);
+  const GatherHierarchy tree = build_hierarchy(cloud);
+  ASSERT_EQ(tree.means.size() + 1, tree.levels.size());
+  for (const auto& level : tree.means)
+    for (size_t i = 0; i < level.size(); ++i) {
+      const size_t size = 1024 / level.size();
+      double area = 0.0;
+      glm::dvec3 position(0.0), normal(0.0);
+      for (size_t s = i * size; s < (i + 1) * size; ++s) {
+        const auto a = static_cast<double>(cloud.area[s]);
+        area += a;
+        position += a * glm::dvec3(cloud.samples[s].position);
+        normal += a * glm::dvec3(cloud.samples[s].geometric_normal);
+      }
+      // Five levels, each rounded to float once: 5 x 2^-24 of a coordinate up to one.
+      EXPECT_NEAR(static_cast<double>(level[i].area) * static_cast<double>(size), area, 3e-7 * area);
+      EXPECT_LT(glm::distance(glm::dvec3(level[i].position), position / area), 6e-7);
+      EXPECT_LT(glm::distance(glm::dvec3(level[i].normal), normal / area), 6e-7);
+    }
+}
+
 }  // namespace
 }  // namespace relight::direct_to_indirect
