@@ -134,5 +134,10 @@ TEST(ExactTwins, RowsThatKeepEverythingHaveNothingToRefit) {
   EXPECT_THROW(bench.prepare({{"coefficients", "0"}, {"refit_lights", "16"}}), Error);
 }
 
+TEST(LinkElements, HaveNoMeanWhereColumnsAreScaled) {
+  TransferBench bench(load_scene("cornell"), 8, 6);
+  EXPECT_THROW(bench.prepare({{"link_element", "mean"}, {"column_scaling", "mean_row"}}), Error);
+}
+
 }  // namespace
 }  // namespace relight::direct_to_indirect

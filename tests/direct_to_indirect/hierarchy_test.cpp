@@ -139,5 +139,17 @@ TEST(Hierarchy, MeansAreWeightedByArea) {
     }
 }
 
+// Areas that underflow. Red if they are divided by (tried).
+TEST(Hierarchy, MeansOfClustersWithoutAreaAreFinite) {
+  GatherCloud cloud =
+      cloud_of(std::vector<glm::vec3>(16, glm::vec3(1.0f)), std::vector<glm::vec3>(16, glm::vec3(0, 1, 0)));
+  cloud.area.assign(16, 0.0f);
+  for (const auto& level : build_hierarchy(cloud).means)
+    for (const GatherPoint& mean : level) {
+      EXPECT_EQ(mean.position, glm::vec3(1.0f));
+      EXPECT_EQ(mean.area, 0.0f);
+    }
+}
+
 }  // namespace
 }  // namespace relight::direct_to_indirect

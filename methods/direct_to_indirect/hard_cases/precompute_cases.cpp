@@ -23,31 +23,64 @@ Figure links_as_the_oracle(GatherSetup& s) {
                  "float geometry, Haar transform and back: some hundred roundings of 2^-24");
 }
 
-// Untruncated rows with hemisphere rays for what is near, in the space of the gather samples.
-Figures sane_hemispheres(GatherSetup& s) {
-  const NearField near(s.tracer, s.cloud, s.hierarchy, {});
-  const SparseRows rows = s.final_gather(exact_settings(samples), {}, {}, &near);
-  double least = 0.0, most = 0.0, bad = 0.0;
+struct RowSums {
+  double bad = 0.0, least = 0.0;  // elements that are not finite, and the least of the others
+  double most = 0.0, all = 0.0;   // largest sum of a row, and of all rows
+};
+
+// Of untruncated rows.
+RowSums row_sums(const SparseRows& rows) {
+  RowSums out;
   for (size_t i = 0; i < rows.rows(); ++i) {
     double sum = 0.0;
     for (const double f : wavelet::inverse(dense_row(rows, i))) {
-      if (!std::isfinite(f)) ++bad;
-      least = std::min(least, f);
+      if (!std::isfinite(f)) ++out.bad;
+      out.least = std::min(out.least, f);
       sum += f;
     }
-    most = std::max(most, sum);
+    out.most = std::max(out.most, sum), out.all += sum;
   }
-  return {at_most("elements that are not finite", bad, 0.0, "0/0 or overflow"),
-          at_least("least element", least, -1e-5, "a share of the hemisphere; float Haar and back"),
-          at_most("largest share of the hemisphere that a row receives", most, 1.1,
-                  "one, and what 256 rays and the areas of the cells are wrong by"),
-          at_least("largest share of the hemisphere that a row receives", most, 0.1,
-                   "else the view gathers nothing, and every other bound holds")};
+  return out;
+}
+
+Figures sane_elements(const RowSums& sums) {
+  return {at_most("elements that are not finite", sums.bad, 0.0, "0/0 or overflow"),
+          at_least("least element", sums.least, -1e-5, "a share of the hemisphere; float Haar and back")};
+}
+
+// Hemisphere rays for what is near.
+Figures sane_hemispheres(GatherSetup& s) {
+  const NearField near(s.tracer, s.cloud, s.hierarchy, {});
+  const RowSums sums = row_sums(s.final_gather(exact_settings(samples), {}, {}, &near));
+  Figures figures = sane_elements(sums);
+  add_worst(figures, at_most("largest share of the hemisphere that a row receives", sums.most, 1.1,
+                             "one, and what 256 rays and the areas of the cells are wrong by"));
+  add_worst(figures, at_least("largest share of the hemisphere that a row receives", sums.most, 0.1,
+                              "else the view gathers nothing, and every other bound holds"));
+  return figures;
+}
+
+// Whole clusters by their mean element, against all pairs.
+Figures sane_mean_links(GatherSetup& s) {
+  FinalGatherSettings settings = exact_settings(samples);
+  settings.form_factor_clamp = 0.1f;
+  const double exact = row_sums(s.final_gather(settings)).all;
+  settings.link_threshold = 0.1f;
+  settings.mean_elements = true;
+  const RowSums sums = row_sums(s.final_gather(settings));
+  Figures figures = sane_elements(sums);
+  const char* why = "clusters of a third of their distance: 1/r^2 is within a factor of two of the centre's";
+  add_worst(figures,
+            at_least("sum of all rows by mean elements, over that of all pairs", sums.all / exact, 0.5, why));
+  add_worst(figures,
+            at_most("sum of all rows by mean elements, over that of all pairs", sums.all / exact, 2.0, why));
+  return figures;
 }
 
 Figures sane_rows(GatherSetup& s) {
   Figures figures = {links_as_the_oracle(s)};
   add_worst(figures, sane_hemispheres(s));
+  add_worst(figures, sane_mean_links(s));
   return figures;
 }
 
