@@ -124,11 +124,10 @@ std::vector<KnobPreset> knob_presets() {
       {"best",
        "The paper's number of coefficients, shared by the 4x4 rows of a tile (view_basis.h) and refitted to "
        "random lights (light_refit.h); direct light averaged over four points of a gather sample's cell "
-       "(light_points.h); links take the mean element of their cluster "
-       "(tile_gather.h); rays instead of the clamp between close points (near_field.h) and along glossy "
-       "lobes (glossy_rays.h); rows of their own for sub-pixels that match no pixel (indirect_grid.h); "
-       "16-bit "
-       "weights by rows, which such a basis suits.",
+       "(light_points.h); links take the mean element of their cluster (tile_gather.h); rays instead of the "
+       "clamp between close points (near_field.h) and along glossy lobes (glossy_rays.h); rows of their own "
+       "for sub-pixels that match no pixel (indirect_grid.h); traced shadows; 16-bit weights by rows, which "
+       "such a basis suits.",
        {{"light_points", "4"},
         {"view_basis", "haar"},
         {"support_exponent", "0.6"},
@@ -137,6 +136,7 @@ std::vector<KnobPreset> knob_presets() {
         {"near_field", "hemisphere"},
         {"glossy_gather", "rays"},
         {"upsampling", "edges"},
+        {"shadows", "traced"},
         {"product", "rows"},
         {"weights", "16"}}}};
 }
