@@ -85,7 +85,7 @@ def costs(rows, scenes, presets):
 
 
 def stages(rows, scenes, presets):
-    print("\n| scene | preset | light | shadow map ms | shading | transform, cull on / off | filtering |\n"
+    print("\n| scene | preset | light | shadow maps / rays ms | shading | transform, cull on / off | filtering |\n"
           "|---|---|---|---|---|---|---|")
     for scene in scenes:
         for preset in presets:
@@ -94,7 +94,7 @@ def stages(rows, scenes, presets):
                 if not off:
                     continue
                 ms = lambda row, stage: number(row, f"relight.{stage}_ms")
-                print(f"| `{scene}` | {preset} | {lights} | {show(ms(off, 'shadow_maps'))} "
+                print(f"| `{scene}` | {preset} | {lights} | {show(ms(off, 'shadow_maps'))} / {show(ms(off, 'shadow_rays'))} "
                       f"| {show(ms(off, 'direct_shading'))} | {show(ms(on, 'transfer'))} / {show(ms(off, 'transfer'))} "
                       f"| {show(ms(off, 'reconstruction'))} |")
 
