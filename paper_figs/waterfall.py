@@ -69,6 +69,13 @@ def draw(axes, rows, measure, title):
     axes.spines[["top", "right"]].set_visible(False)
 
 
+def with_method(run):
+    """The words of a run's folder, joined by underscores as those of the method's name are."""
+    for method in ("direct_to_indirect", "clustered_gather"):
+        run = run.replace(f"_{method}_", f", {method.replace('_', ' ')}, ")
+    return run.replace("_", ", ", 1)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("csv", nargs="+", help="waterfall.csv of a run; its folder or file name is the title")
@@ -85,7 +92,7 @@ def main():
     for axes, file in zip(panels.flat, options.csv):
         name = os.path.splitext(os.path.basename(file))[0]
         title = os.path.basename(os.path.dirname(os.path.abspath(file))) if name == "waterfall" else name
-        draw(axes, read(file), options.measure, title.replace("_", ", "))
+        draw(axes, read(file), options.measure, with_method(title))
     figure.tight_layout()
     folder = os.path.dirname(os.path.abspath(options.out))
     with tempfile.NamedTemporaryFile(dir=folder, suffix=".svg", delete=False) as temporary:
