@@ -88,14 +88,20 @@ TEST(Hierarchy, RefusesACloudThatIsNoPowerOfFour) {
   EXPECT_THROW(order_gather_cloud(cloud, 30.0f, 1.0f), Error);
 }
 
-// Red if a cone or box forgets a member: culling would then drop light.
-TEST(Hierarchy, BoxesAndConesHoldTheirMembers) {
+// In the unit cube, facing up.
+GatherCloud random_cloud(uint64_t seed) {
   std::vector<glm::vec3> p, n;
   for (uint64_t i = 0; i < 1024; ++i) {
-    p.emplace_back(random_float(5, 0, i, 0), random_float(5, 0, i, 1), random_float(5, 0, i, 2));
-    n.push_back(sample_cosine(glm::vec3(0, 1, 0), {random_float(5, 0, i, 3), random_float(5, 0, i, 4)}));
+    p.emplace_back(random_float(seed, 0, i, 0), random_float(seed, 0, i, 1), random_float(seed, 0, i, 2));
+    n.push_back(
+        sample_cosine(glm::vec3(0, 1, 0), {random_float(seed, 0, i, 3), random_float(seed, 0, i, 4)}));
   }
-  GatherCloud cloud = cloud_of(p, n);
+  return cloud_of(p, n);
+}
+
+// Red if a cone or box forgets a member: culling would then drop light.
+TEST(Hierarchy, BoxesAndConesHoldTheirMembers) {
+  GatherCloud cloud = random_cloud(5);
   order_gather_cloud(cloud, 30.0f, 1.7f);
   const GatherHierarchy tree = build_hierarchy(cloud);
   for (const auto& level : tree.levels)
@@ -112,12 +118,7 @@ TEST(Hierarchy, BoxesAndConesHoldTheirMembers) {
 // Areas are 0 to 1,023, one of them zero. Red if a mean forgets the weights (tried), or takes its members
 // from another cluster (tried: the first four for all).
 TEST(Hierarchy, MeansAreWeightedByArea) {
-  std::vector<glm::vec3> p, n;
-  for (uint64_t i = 0; i < 1024; ++i) {
-    p.emplace_back(random_float(6, 0, i, 0), random_float(6, 0, i, 1), random_float(6, 0, i, 2));
-    n.push_back(sample_cosine(glm::vec3(0, 1, 0), {random_float(6, 0, i, 3), random_float(6, 0, i, 4)}));
-  }
-  GatherCloud cloud = cloud_of(p, n);
+  GatherCloud cloud = random_cloud(6);
   order_gather_cloud(cloud, 30.0f, 1.7f);
   const GatherHierarchy tree = build_hierarchy(cloud);
   ASSERT_EQ(tree.means.size() + 1, tree.levels.size());
