@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/tracing/points16.h"
+#include "common/tracing/segment_fan.h"
 #include "reference/path_vertex.h"
 
 namespace relight {
@@ -12,7 +13,7 @@ namespace relight {
 struct EyeTile {
   EyeVertex vertex[16];
   Points16 position, shading_normal, geometric_normal;
-  Points16 start;             // positions moved off the surface, as RayTracer::visible16 wants them
+  SegmentFan start;           // positions moved off the surface
   Points16 diffuse;           // BRDF of the diffuse lobe [1/sr]
   float paths = 1.0f;         // EyeVertex::paths of all of them
   uint32_t valid = 0;         // bit i: vertex[i] is there

@@ -190,39 +190,7 @@ bool RayTracer::visible_from_point(const glm::vec3& p, const glm::vec3& np, cons
   return embree_->free_segment(a, light);
 }
 
-uint32_t RayTracer::visible16(const Points16& p, const glm::vec3& q, uint32_t active) const {
-  if (!finite(q)) refuse_ray("end", q, q);
-  alignas(64) RTCRay16 rays;
-  alignas(64) int valid[16];
-  uint32_t not_finite = 0;
-  for (unsigned i = 0; i < 16; ++i) {
-    const bool on = (active >> i) & 1u;  // an inactive entry may hold anything
-    valid[i] = on ? -1 : 0;
-    const glm::vec3 origin(on ? p.x[i] : q.x, on ? p.y[i] : q.y, on ? p.z[i] : q.z);
-    const glm::vec3 direction = q - origin;
-    set_segment(rays, i, origin, direction);
-    // 0 x a difference is 0 only if point and difference are finite.
-    not_finite |= direction.x * 0.0f + direction.y * 0.0f + direction.z * 0.0f == 0.0f ? 0u : 1u;
-  }
-  for (unsigned i = 0; not_finite && i < 16; ++i)
-    if (((active >> i) & 1u) && !finite(p.get(i) - q)) refuse_ray("end", p.get(i), q);
-  if (log_) {
-    RayLog::Packet packet;
-    packet.end = q, packet.active = active;
-    for (unsigned i = 0; i < 16; ++i) packet.origin.set(i, {rays.org_x[i], rays.org_y[i], rays.org_z[i]});
-    log_->add(packet);
-  }
-  return active & ~embree_->trace16(valid, rays, active);
-}
-
-uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {
-  Points16 points;
-  for (unsigned i = 0; i < 16; ++i)
-    if ((active >> i) & 1u) points.set(i, p[i]);
-  return visible16(points, q, active);
-}
-
-uint32_t RayTracer::visible16(SegmentFan& fan, const glm::vec3& q, uint32_t active) const {
+uint32_t RayTracer::visible16(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const {
   RTCRay16& rays = fan.rays_->packet;
   int* valid = fan.rays_->valid;
   uint32_t not_finite = 0;
@@ -235,25 +203,30 @@ uint32_t RayTracer::visible16(SegmentFan& fan, const glm::vec3& q, uint32_t acti
     not_finite |= x * 0.0f + y * 0.0f + z * 0.0f == 0.0f ? 0u : 1u;
   }
   if (not_finite) refuse_ray("end", {rays.org_x[0], rays.org_y[0], rays.org_z[0]}, q);
-  if (log_) log_fan(fan, q, active);
+  if (log_) {
+    RayLog::Packet packet;
+    packet.end = q, packet.active = active;
+    for (unsigned i = 0; i < 16; ++i) packet.origin.set(i, {rays.org_x[i], rays.org_y[i], rays.org_z[i]});
+    log_->add(packet);
+  }
   return active & ~embree_->trace16(valid, rays, active);
 }
 
-void RayTracer::log_fan(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const {
-  const RTCRay16& rays = fan.rays_->packet;
-  RayLog::Packet packet;
-  packet.end = q, packet.active = active;
-  for (unsigned i = 0; i < 16; ++i) packet.origin.set(i, {rays.org_x[i], rays.org_y[i], rays.org_z[i]});
-  log_->add(packet);
+uint32_t RayTracer::visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const {
+  return free16(p, q, false, active);
 }
 
 uint32_t RayTracer::visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const {
-  if (!finite(v)) refuse_ray("direction", v, v);
+  return free16(p, v, true, active);
+}
+
+uint32_t RayTracer::free16(const glm::vec3* p, const glm::vec3& end, bool parallel, uint32_t active) const {
   RayLog::Packet packet;
-  packet.end = v, packet.active = active, packet.parallel = true;
+  packet.end = end, packet.active = active, packet.parallel = parallel;
   for (unsigned i = 0; i < 16; ++i) {
     if (!((active >> i) & 1u)) continue;
-    if (!finite(p[i])) refuse_ray("origin", p[i], v);
+    if (!finite(p[i]) || !finite(parallel ? end : end - p[i]))
+      refuse_ray(parallel ? "origin or direction" : "end", p[i], end);
     packet.origin.set(i, p[i]);
   }
   if (log_) log_->add(packet);

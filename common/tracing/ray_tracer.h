@@ -45,10 +45,10 @@ class RayTracer {
 
   // 16 segments at once from p[i] to one common end; coherent packets. active: bit i set = test segment i.
   // Returns the mask of segments that are free. Positions must already be offset (see offset_point).
-  uint32_t visible16(const Points16& p, const glm::vec3& q, uint32_t active) const;
   uint32_t visible16(const glm::vec3* p, const glm::vec3& q, uint32_t active) const;
-  // The same for many ends q, one after another: the fan keeps the points. One thread a fan.
-  uint32_t visible16(SegmentFan& fan, const glm::vec3& q, uint32_t active) const;
+  // The same for many ends q, one after another: the fan keeps the points, and writes into its packet, so that
+  // a fan is for one thread.
+  uint32_t visible16(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const;
   // The same for 16 parallel segments, from p[i] to p[i] + v.
   uint32_t visible16_along(const glm::vec3* p, const glm::vec3& v, uint32_t active) const;
 
@@ -64,7 +64,8 @@ class RayTracer {
   RayCounts replay(const RayLog::Thread& log) const;
 
  private:
-  void log_fan(const SegmentFan& fan, const glm::vec3& q, uint32_t active) const;
+  // Segments to `end`, or parallel: along it.
+  uint32_t free16(const glm::vec3* p, const glm::vec3& end, bool parallel, uint32_t active) const;
 
   const Scene& scene_;
   RayLog* log_ = nullptr;

@@ -230,6 +230,7 @@ Value TileGather::link(size_t level, size_t index, uint32_t mask, bool by_mean) 
     const auto value = seen_elements<Value>(point, member, factor, mask);
     if (k == 0) {
       sum = value;
+      counts_.links += counts_.rays - rays;
       continue;
     }
     for (size_t i = 0; i < lanes; ++i) {
@@ -237,7 +238,6 @@ Value TileGather::link(size_t level, size_t index, uint32_t mask, bool by_mean) 
       if constexpr (Value::lobes) sum.glossy[i] += value.glossy[i];
     }
   }
-  counts_.links += members == 1 ? counts_.rays - rays : std::popcount(mask);
   return sum;
 }
 

@@ -22,7 +22,7 @@ namespace relight::direct_to_indirect {
 
 struct GatherCounts {
   int64_t rays = 0;   // segments tested
-  int64_t links = 0;  // (view sample, cluster) pairs evaluated
+  int64_t links = 0;  // (view sample, cluster) pairs with a positive element
   int64_t near_elements = 0, near_rays = 0;
   int64_t glossy_rays = 0;  // of GlossyRays
 
