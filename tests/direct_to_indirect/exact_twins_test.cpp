@@ -134,6 +134,7 @@ TEST(ExactTwins, RowsThatKeepEverythingHaveNothingToRefit) {
   EXPECT_THROW(bench.prepare({{"coefficients", "0"}, {"refit_lights", "16"}}), Error);
 }
 
+// Red if the two are accepted together (tried).
 TEST(LinkElements, HaveNoMeanWhereColumnsAreScaled) {
   TransferBench bench(load_scene("cornell"), 8, 6);
   EXPECT_THROW(bench.prepare({{"link_element", "mean"}, {"column_scaling", "mean_row"}}), Error);

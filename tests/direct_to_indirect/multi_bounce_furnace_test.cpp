@@ -67,14 +67,19 @@ TEST(MultiBounceFurnace, PhotonRowsInABoxSumToTheSeriesAwayFromEdgesAndDarkenThe
   EXPECT_LT(all.mean.x, 0.98);
 }
 
-// Red if a row takes another sample's place in its tile, or rho is applied once too often. No mutation tried.
+// Red if a row takes another sample's place in its tile, rho is applied once too often, or a cluster's mean
+// counts the areas of all its members (the last tried).
 TEST(MultiBounceFurnace, TransferRowsInASphereSumToTheSeries) {
   const BounceSetup s(closed_sphere(grey_to_black), samples, true);
-  const MultiBounce m = s.compute(quick_settings(BounceKind::transfer, 4));
-  const RowSums sums = row_sums(s, m, grey_to_black, 0.0f);
-  expect_mean_one(sums, 0.005);
-  EXPECT_GT(sums.smallest, 0.9);
-  EXPECT_LT(sums.largest, 1.1);
+  MultiBounceSettings settings = quick_settings(BounceKind::transfer, 4);
+  for (const bool mean_elements : {false, true}) {
+    settings.gather.mean_elements = mean_elements;
+    const MultiBounce m = s.compute(settings);
+    const RowSums sums = row_sums(s, m, grey_to_black, 0.0f);
+    expect_mean_one(sums, 0.005);
+    EXPECT_GT(sums.smallest, 0.9);
+    EXPECT_LT(sums.largest, 1.1);
+  }
 }
 
 // In corners the clamp of 0.1 takes light away, and bounces carry the loss on.
